@@ -1,0 +1,148 @@
+#include "base/number.h"
+
+#include <ctype.h>
+#include <errno.h>
+#include <limits.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define LONGEST_NUMBER 64 /* characters; no sensible number is longer */
+
+static size_t
+digits(const char *text)
+{
+	size_t count = 0;
+
+	while (isdigit((unsigned char)text[count]))
+		count++;
+	return count;
+}
+
+/* The length of [+-]digits[mark digits][e[+-]digits] at text, or 0. */
+static size_t
+number_length(const char *text, char mark)
+{
+	size_t length = 0, mantissa, exponent;
+
+	if (text[length] == '+' || text[length] == '-')
+		length++;
+	mantissa = digits(text + length);
+	length += mantissa;
+	if (text[length] == mark) {
+		size_t fraction = digits(text + length + 1);
+
+		if (mantissa + fraction == 0)
+			return 0;
+		mantissa += fraction;
+		length += 1 + fraction;
+	}
+	if (mantissa == 0)
+		return 0;
+	if (text[length] == 'e' || text[length] == 'E') {
+		size_t sign = text[length + 1] == '+' || text[length + 1] == '-';
+
+		exponent = digits(text + length + 1 + sign);
+		if (exponent > 0)
+			length += 1 + sign + exponent;
+	}
+	return length;
+}
+
+size_t
+spec_number_scan(const char *text, char mark, double *value)
+{
+	char copy[LONGEST_NUMBER];
+	size_t length = number_length(text, mark);
+	char *comma;
+
+	if (length == 0 || length >= sizeof copy)
+		return 0;
+	memcpy(copy, text, length);
+	copy[length] = '\0';
+	comma = strchr(copy, mark);
+	if (comma)
+		*comma = '.'; /* no program here calls setlocale: strtod takes a point */
+	*value = strtod(copy, NULL);
+	return isfinite(*value) ? length : 0;
+}
+
+enum spec_status
+spec_number_parse(const char *text, double minimum, double maximum, const char *what,
+	double *value, struct spec_error *error)
+{
+	double parsed;
+	size_t length = spec_number_scan(text, '.', &parsed);
+
+	if (length == 0 || text[length] != '\0')
+		return spec_error_set(error, SPEC_EUSAGE, "%s is not a number: '%s'", what, text);
+	if (parsed < minimum || parsed > maximum)
+		return spec_error_set(error, SPEC_ERANGE, "%s is outside %g..%g: '%s'", what,
+			minimum, maximum, text);
+	*value = parsed;
+	return SPEC_OK;
+}
+
+enum spec_status
+spec_number_parse_whole(const char *text, long long minimum, long long maximum,
+	const char *what, long long *value, struct spec_error *error)
+{
+	size_t sign = *text == '-' || *text == '+';
+	size_t length = sign + digits(text + sign);
+	long long parsed;
+
+	if (length == sign || text[length] != '\0')
+		return spec_error_set(
+			error, SPEC_EUSAGE, "%s is not a whole number: '%s'", what, text);
+	errno = 0;
+	parsed = strtoll(text, NULL, 10);
+	if (errno == ERANGE || parsed < minimum || parsed > maximum)
+		return spec_error_set(error, SPEC_ERANGE, "%s is outside %lld..%lld: '%s'",
+			what, minimum, maximum, text);
+	*value = parsed;
+	return SPEC_OK;
+}
+
+enum spec_status
+spec_number_parse_bytes(
+	const char *text, const char *what, long long *value, struct spec_error *error)
+{
+	static const char suffixes[] = "kMGT";
+	size_t length = digits(text);
+	const char *suffix = strchr(suffixes, text[length]);
+	int shift = text[length] && suffix ? 10 * (int)(suffix - suffixes + 1) : 0;
+	long long count;
+
+	errno = 0;
+	count = strtoll(text, NULL, 10);
+	if (length == 0 || !suffix || (text[length] && text[length + 1]))
+		return spec_error_set(error, SPEC_EUSAGE,
+			"%s is not a number with an optional k, M, G or T: '%s'", what, text);
+	if (errno == ERANGE || count == 0 || count > (LLONG_MAX >> shift))
+		return spec_error_set(error, SPEC_ERANGE, "%s is out of range: '%s'", what, text);
+	*value = count << shift;
+	return SPEC_OK;
+}
+
+enum spec_status
+spec_number_parse_length(
+	const char *text, const char *what, double *length_nm, struct spec_error *error)
+{
+	static const struct {
+		const char *suffix;
+		double nm;
+	} units[] = {{"", 1}, {"nm", 1}, {"um", 1e3}, {"mm", 1e6}, {"cm", 1e7}, {"m", 1e9}};
+	double value;
+	size_t length = spec_number_scan(text, '.', &value);
+
+	for (size_t i = 0; length > 0 && i < sizeof units / sizeof units[0]; i++) {
+		if (strcmp(text + length, units[i].suffix) != 0)
+			continue;
+		if (!(value > 0))
+			return spec_error_set(error, SPEC_ERANGE, "%s is not positive: '%s'", what, text);
+		*length_nm = value * units[i].nm;
+		return SPEC_OK;
+	}
+	return spec_error_set(error, SPEC_EUSAGE,
+		"%s is not a length in nm, um, mm, cm or m: '%s'", what, text);
+}

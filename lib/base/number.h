@@ -1,0 +1,39 @@
+/*
+ * Strict parsing of numbers and quantities. The whole text must be the number:
+ * trailing junk, an empty text, NaN, infinity and a value outside its range are
+ * errors, whose message says what was expected. The locale plays no part.
+ */
+#ifndef SPEC_BASE_NUMBER_H
+#define SPEC_BASE_NUMBER_H
+
+#include <stddef.h>
+
+#include "base/error.h"
+
+/* A finite decimal number in [minimum, maximum]. what: a noun for the message. */
+enum spec_status spec_number_parse(const char *text, double minimum, double maximum,
+	const char *what, double *value, struct spec_error *error);
+
+/* A whole number in [minimum, maximum]. */
+enum spec_status spec_number_parse_whole(const char *text, long long minimum,
+	long long maximum, const char *what, long long *value, struct spec_error *error);
+
+/* A count of bytes with an optional suffix k, M, G or T (powers of 1024). */
+enum spec_status spec_number_parse_bytes(const char *text, const char *what,
+	long long *value, struct spec_error *error);
+
+/*
+ * A length in nm: a number with an optional unit nm, um, mm, cm or m; a bare
+ * number is nm. Valid: positive and finite.
+ */
+enum spec_status spec_number_parse_length(const char *text, const char *what,
+	double *length_nm, struct spec_error *error);
+
+/*
+ * The number at the start of a text that need not end there, as the formats
+ * write them; mark is the decimal mark, '.' or ','. Returns how many bytes it
+ * takes, or 0 if there is none or it is not finite.
+ */
+size_t spec_number_scan(const char *text, char mark, double *value);
+
+#endif
