@@ -1,0 +1,287 @@
+#include "cli/options.h"
+
+#include <errno.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define EXIT_TROUBLE 2
+#define LONGEST_NAME 32
+#define HELP_COLUMN 28
+
+const struct cli_option cli_common_options[] = {
+	{'o', "output", "FILE", "write FILE (default: standard output)"},
+	{'j', "threads", "N", "use N threads (default: all processors)"},
+	{0, "part", "N|NAME", "which part of a file with several"},
+	{0, "compression", "NAME",
+		"none rle zips zip piz pxr24 b44 b44a\n(default: zip, to a pipe none)"},
+	{0, "half", NULL, "store 16-bit floats"},
+	{0, "limit", "NAME=VALUE", "raise or lower a limit: pixels channels header memory"},
+	{0, "no-history", NULL, "do not record this command in the output"},
+	{0, "progress", NULL, "show progress even when stderr is no terminal"},
+	{'q', "quiet", NULL, "no warnings, no progress"},
+	{'h', "help", NULL, "show this text"},
+	{'V', "version", NULL, "show the version"},
+	{0},
+};
+
+void
+cli_start(struct cli *cli, const struct cli_program *program, int argc, char **argv)
+{
+	*cli = (struct cli){.program = program, .argument = argv + 1, .count = argc - 1};
+	if (argc < 1)
+		*cli = (struct cli){.program = program};
+}
+
+static void
+print_option(const struct cli_option *option)
+{
+	char left[80];
+	const char *line = option->help;
+	int length;
+
+	length = option->letter ? snprintf(left, sizeof left, "  -%c, ", option->letter)
+				: snprintf(left, sizeof left, "      ");
+	length += snprintf(left + length, sizeof left - length, "--%s%s%s", option->name,
+		option->argument ? " " : "", option->argument ? option->argument : "");
+	if (length >= HELP_COLUMN)
+		printf("%s\n%*s", left, HELP_COLUMN, "");
+	else
+		printf("%-*s", HELP_COLUMN, left);
+	for (const char *end; (end = strchr(line, '\n')) != NULL; line = end + 1)
+		printf("%.*s\n%*s", (int)(end - line), line, HELP_COLUMN, "");
+	printf("%s\n", line);
+}
+
+static _Noreturn void
+print_help(const struct cli *cli)
+{
+	const struct cli_program *program = cli->program;
+
+	printf("usage: %s %s\n%s\n\n", program->name, program->arguments, program->summary);
+	for (const struct cli_option *option = program->options; option->name; option++)
+		print_option(option);
+	printf("\n");
+	for (const struct cli_option *option = cli_common_options; option->name; option++)
+		print_option(option);
+	exit(cli_finish(cli, 0));
+}
+
+static _Noreturn void
+print_version(const struct cli *cli)
+{
+	printf("%s (spectools) %s\n", cli->program->name, SPEC_VERSION);
+	exit(cli_finish(cli, 0));
+}
+
+static int
+smallest(int a, int b, int c)
+{
+	int least = a < b ? a : b;
+
+	return least < c ? least : c;
+}
+
+/* Levenshtein's distance: insertions, deletions and substitutions from a to b. */
+static int
+edit_distance(const char *a, const char *b)
+{
+	int row[LONGEST_NAME + 1];
+	int columns = (int)strlen(b);
+
+	if (columns > LONGEST_NAME)
+		return columns;
+	for (int j = 0; j <= columns; j++)
+		row[j] = j;
+	for (int i = 1; a[i - 1]; i++) {
+		int diagonal = row[0];
+
+		row[0] = i;
+		for (int j = 1; j <= columns; j++) {
+			int above = row[j];
+
+			row[j] = smallest(above + 1, row[j - 1] + 1,
+				diagonal + (a[i - 1] != b[j - 1]));
+			diagonal = above;
+		}
+	}
+	return row[columns];
+}
+
+static void
+find_nearest(const struct cli_option *option, const char *name, const char **best, int *least)
+{
+	for (; option->name; option++) {
+		int distance = edit_distance(name, option->name);
+
+		if (distance < *least) {
+			*least = distance;
+			*best = option->name;
+		}
+	}
+}
+
+static _Noreturn void
+unknown_option(const struct cli *cli, const char *name)
+{
+	const char *best = NULL;
+	int least = (int)strlen(name) / 2 + 1;
+
+	find_nearest(cli->program->options, name, &best, &least);
+	find_nearest(cli_common_options, name, &best, &least);
+	if (best)
+		cli_usage(cli, "unknown option '--%s'; did you mean '--%s'?", name, best);
+	cli_usage(cli, "unknown option '--%s' (try --help)", name);
+}
+
+static const struct cli_option *
+find_in(const struct cli_option *option, char letter, const char *name, size_t length)
+{
+	for (; option->name; option++) {
+		if (letter ? option->letter == letter
+			   : strlen(option->name) == length && memcmp(option->name, name, length) == 0)
+			return option;
+	}
+	return NULL;
+}
+
+static const struct cli_option *
+find(const struct cli *cli, char letter, const char *name, size_t length)
+{
+	const struct cli_option *option = find_in(cli->program->options, letter, name, length);
+
+	return option ? option : find_in(cli_common_options, letter, name, length);
+}
+
+static void
+take_argument(struct cli *cli, const struct cli_option *option, const char *attached)
+{
+	if (strcmp(option->name, "help") == 0)
+		print_help(cli);
+	if (strcmp(option->name, "version") == 0)
+		print_version(cli);
+	cli->name = option->name;
+	cli->value = NULL;
+	if (!option->argument)
+		return;
+	if (attached) {
+		cli->value = attached;
+	} else {
+		if (cli->count == 0)
+			cli_usage(cli, "option '--%s' needs an argument (%s)", option->name, option->argument);
+		cli->value = *cli->argument++;
+		cli->count--;
+	}
+}
+
+static void
+take_long(struct cli *cli, const char *text)
+{
+	size_t length = strcspn(text, "=");
+	const struct cli_option *option = find(cli, 0, text, length);
+
+	if (!option) {
+		char name[LONGEST_NAME + 1];
+
+		snprintf(name, sizeof name, "%.*s", (int)(length < LONGEST_NAME ? length : LONGEST_NAME),
+			text);
+		unknown_option(cli, name);
+	}
+	if (text[length] == '=' && !option->argument)
+		cli_usage(cli, "option '--%s' takes no argument", option->name);
+	take_argument(cli, option, text[length] == '=' ? text + length + 1 : NULL);
+}
+
+static void
+take_letter(struct cli *cli, const char *text)
+{
+	const struct cli_option *option = find(cli, *text, NULL, 0);
+
+	if (!option)
+		cli_usage(cli, "unknown option '-%c' (try --help)", *text);
+	cli->cluster = !option->argument && text[1] ? text + 1 : NULL;
+	take_argument(cli, option, option->argument && text[1] ? text + 1 : NULL);
+}
+
+int
+cli_next(struct cli *cli)
+{
+	const char *text;
+
+	if (cli->cluster) {
+		take_letter(cli, cli->cluster);
+		return 1;
+	}
+	if (cli->count == 0)
+		return 0;
+	text = *cli->argument++;
+	cli->count--;
+	if (!cli->operands_only && strcmp(text, "--") == 0) {
+		cli->operands_only = 1;
+		return cli_next(cli);
+	}
+	if (cli->operands_only || text[0] != '-' || text[1] == '\0') {
+		cli->name = NULL;
+		cli->value = text;
+	} else if (text[1] == '-') {
+		take_long(cli, text + 2);
+	} else {
+		take_letter(cli, text + 1);
+	}
+	return 1;
+}
+
+void
+cli_die(const struct cli *cli, const struct spec_error *error)
+{
+	fprintf(stderr, "%s: %s\n", cli->program->name, error->message);
+	exit(EXIT_TROUBLE);
+}
+
+void
+cli_usage(const struct cli *cli, const char *format, ...)
+{
+	struct spec_error error;
+	char message[sizeof error.message];
+	va_list arguments;
+
+	va_start(arguments, format);
+	vsnprintf(message, sizeof message, format, arguments);
+	va_end(arguments);
+	spec_error_set(&error, SPEC_EUSAGE, "%s", message);
+	cli_die(cli, &error);
+}
+
+void
+cli_warn(const struct cli *cli, const char *format, ...)
+{
+	va_list arguments;
+
+	fprintf(stderr, "%s: warning: ", cli->program->name);
+	va_start(arguments, format);
+	vfprintf(stderr, format, arguments);
+	va_end(arguments);
+	fputc('\n', stderr);
+}
+
+void
+cli_check(const struct cli *cli, enum spec_status status, const struct spec_error *error)
+{
+	if (status != SPEC_OK)
+		cli_die(cli, error);
+}
+
+int
+cli_finish(const struct cli *cli, int status)
+{
+	/* ferror first: an earlier failed write may have left nothing to flush. */
+	int failed = ferror(stdout);
+
+	if (fclose(stdout) != 0 || failed) {
+		fprintf(stderr, "%s: unable to write '<stdout>': %s\n", cli->program->name,
+			strerror(errno ? errno : EIO));
+		return EXIT_TROUBLE;
+	}
+	return status;
+}
