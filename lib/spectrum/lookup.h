@@ -1,0 +1,40 @@
+/*
+ * Spectra by name. A root is a folder with the group folders cmf, illuminants, glass,
+ * metals, reflectance, media and upsampling, each with .spd files and perhaps one level of
+ * folders of them. The roots are the folders of the environment's SPECTRA_PATH (colons
+ * between them), then ../share/spectools/spectra beside the folder of the running program.
+ * The full name of such a file is "illuminants/D65", its short name "D65".
+ */
+#ifndef SPEC_SPECTRUM_LOOKUP_H
+#define SPEC_SPECTRUM_LOOKUP_H
+
+#include <stddef.h>
+
+#include "base/error.h"
+#include "spectrum/curve.h"
+
+/*
+ * Reads the curve that name stands for:
+ * 1. the file at the path name, if name contains '/' or ends in .spd, .txt or .csv and
+ *    something that is no folder is there;
+ * 2. the file of that full name, or whose full name ends in '/' and name, in the first
+ *    root that has one;
+ * 3. the same with upper and lower case taken as equal.
+ * SPEC_EUSAGE: no such spectrum (the message says where it was looked for, and the nearest
+ * name if there is one), or two in one root (it names both). Other statuses as
+ * spec_spd_load. On an error curve is empty.
+ */
+enum spec_status spec_lookup_curve(
+	const char *name, struct spec_curve *curve, struct spec_error *error);
+
+/*
+ * The full names of all spectra in all roots, sorted by byte, each once. To be freed with
+ * spec_lookup_free_list. SPEC_EIO: a folder is there but cannot be read. SPEC_ENOMEM. On
+ * an error the list is null and empty.
+ */
+enum spec_status spec_lookup_list(char ***names, size_t *count, struct spec_error *error);
+
+/* Frees a list of count names; null is allowed. */
+void spec_lookup_free_list(char **names, size_t count);
+
+#endif
