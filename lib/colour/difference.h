@@ -1,0 +1,29 @@
+/* CIELAB and colour differences. */
+#ifndef SPEC_COLOUR_DIFFERENCE_H
+#define SPEC_COLOUR_DIFFERENCE_H
+
+/*
+ * CIELAB coordinates of a colour.
+ * Given:    xyz    tristimulus values, finite, on the scale of white (negative ones go
+ *                  on along the straight part)
+ *           white  tristimulus values of the white, each > 0
+ * Returned: lab    L* (0 black, 100 white), a*, b*, without unit
+ * Source:   CIE 15:2018 and ISO/CIE 11664-4:2019, with the exact 216/24389 = (6/29)^3
+ *           and 24389/27 = (29/3)^3 in place of .008856 and 903.3.
+ */
+void spec_lab_from_xyz(const double xyz[3], const double white[3], double lab[3]);
+
+/* The distance in CIELAB, DeltaE*ab (CIE 1976; ISO/CIE 11664-4:2019). */
+double spec_difference_ab76(const double lab1[3], const double lab2[3]);
+
+/*
+ * CIEDE2000 colour difference with kL = kC = kH = 1, symmetric in its arguments.
+ * Given:    lab1, lab2  CIELAB coordinates, finite; a NaN gives NaN
+ * Source:   Sharma, Wu, Dalal: The CIEDE2000 color-difference formula: implementation
+ *           notes, supplementary test data, and mathematical observations. Color
+ *           Research and Application 30 (2005) 21-30; ISO/CIE 11664-6:2014.
+ * Domain:   meant for differences up to about 5; hue is discontinuous at 180 degrees.
+ */
+double spec_difference_ciede2000(const double lab1[3], const double lab2[3]);
+
+#endif
