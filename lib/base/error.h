@@ -26,8 +26,8 @@ enum spec_status spec_error_set(struct spec_error *error, enum spec_status statu
 	const char *format, ...) __attribute__((format(printf, 3, 4)));
 
 /* As spec_error_set, and appends ": " and the text of the errno given. */
-enum spec_status spec_error_system(struct spec_error *error, int errnum,
-	const char *format, ...) __attribute__((format(printf, 3, 4)));
+enum spec_status spec_error_system(struct spec_error *error, int errnum, const char *format,
+	...) __attribute__((format(printf, 3, 4)));
 
 /* Puts "prefix: " before the message that is there; returns its status. */
 enum spec_status spec_error_prefix(struct spec_error *error, const char *format, ...)

@@ -11,10 +11,12 @@
  * (the product is checked for overflow; a count of 0 gives a valid pointer).
  * what: a plural noun for the message, such as "channels".
  */
-void *spec_memory_new(size_t count, size_t size, const char *what, struct spec_error *error);
+void *spec_memory_new(
+	size_t count, size_t size, const char *what, struct spec_error *error);
 
 /* As spec_memory_new, but not zeroed and aligned to 64 bytes. Freed with free(). */
-void *spec_memory_aligned(size_t count, size_t size, const char *what, struct spec_error *error);
+void *spec_memory_aligned(
+	size_t count, size_t size, const char *what, struct spec_error *error);
 
 /*
  * Grows *list, which has room for *room elements of size bytes, until it has

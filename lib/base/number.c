@@ -75,10 +75,11 @@ spec_number_parse(const char *text, double minimum, double maximum, const char *
 	size_t length = spec_number_scan(text, '.', &parsed);
 
 	if (length == 0 || text[length] != '\0')
-		return spec_error_set(error, SPEC_EUSAGE, "%s is not a number: '%s'", what, text);
+		return spec_error_set(
+			error, SPEC_EUSAGE, "%s is not a number: '%s'", what, text);
 	if (parsed < minimum || parsed > maximum)
-		return spec_error_set(error, SPEC_ERANGE, "%s is outside %g..%g: '%s'", what,
-			minimum, maximum, text);
+		return spec_error_set(error, SPEC_ERANGE, "%s is outside %g..%g: '%s'",
+			what, minimum, maximum, text);
 	*value = parsed;
 	return SPEC_OK;
 }
@@ -117,9 +118,11 @@ spec_number_parse_bytes(
 	count = strtoll(text, NULL, 10);
 	if (length == 0 || !suffix || (text[length] && text[length + 1]))
 		return spec_error_set(error, SPEC_EUSAGE,
-			"%s is not a number with an optional k, M, G or T: '%s'", what, text);
+			"%s is not a number with an optional k, M, G or T: '%s'", what,
+			text);
 	if (errno == ERANGE || count == 0 || count > (LLONG_MAX >> shift))
-		return spec_error_set(error, SPEC_ERANGE, "%s is out of range: '%s'", what, text);
+		return spec_error_set(
+			error, SPEC_ERANGE, "%s is out of range: '%s'", what, text);
 	*value = count << shift;
 	return SPEC_OK;
 }
@@ -139,7 +142,8 @@ spec_number_parse_length(
 		if (strcmp(text + length, units[i].suffix) != 0)
 			continue;
 		if (!(value > 0))
-			return spec_error_set(error, SPEC_ERANGE, "%s is not positive: '%s'", what, text);
+			return spec_error_set(
+				error, SPEC_ERANGE, "%s is not positive: '%s'", what, text);
 		*length_nm = value * units[i].nm;
 		return SPEC_OK;
 	}

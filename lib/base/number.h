@@ -19,15 +19,15 @@ enum spec_status spec_number_parse_whole(const char *text, long long minimum,
 	long long maximum, const char *what, long long *value, struct spec_error *error);
 
 /* A count of bytes with an optional suffix k, M, G or T (powers of 1024). */
-enum spec_status spec_number_parse_bytes(const char *text, const char *what,
-	long long *value, struct spec_error *error);
+enum spec_status spec_number_parse_bytes(
+	const char *text, const char *what, long long *value, struct spec_error *error);
 
 /*
  * A length in nm: a number with an optional unit nm, um, mm, cm or m; a bare
  * number is nm. Valid: positive and finite.
  */
-enum spec_status spec_number_parse_length(const char *text, const char *what,
-	double *length_nm, struct spec_error *error);
+enum spec_status spec_number_parse_length(
+	const char *text, const char *what, double *length_nm, struct spec_error *error);
 
 /*
  * The number at the start of a text that need not end there, as the formats

@@ -32,7 +32,7 @@ open_standard(struct spec_output *output, struct spec_error *error)
 	if (flags < 0 || fstat(STDOUT_FILENO, &status) < 0)
 		return spec_error_system(error, errno, "unable to use standard output");
 	output->seekable = S_ISREG(status.st_mode) && !(flags & O_APPEND) &&
-		lseek(STDOUT_FILENO, 0, SEEK_CUR) == 0;
+			   lseek(STDOUT_FILENO, 0, SEEK_CUR) == 0;
 	output->terminal = isatty(STDOUT_FILENO);
 	if (S_ISFIFO(status.st_mode))
 		(void)fcntl(STDOUT_FILENO, F_SETPIPE_SZ, PIPE_BYTES);
@@ -81,7 +81,8 @@ open_beside(struct spec_output *output, mode_t mode, struct spec_error *error)
 
 			free(output->temporary);
 			output->temporary = NULL;
-			return spec_error_system(error, failure, "unable to create '%s'", output->path);
+			return spec_error_system(
+				error, failure, "unable to create '%s'", output->path);
 		}
 		(void)fchmod(output->fd, mode);
 	}
@@ -99,23 +100,28 @@ open_named(struct spec_output *output, struct spec_error *error)
 	umask(mask);
 	if (stat(output->path, &status) == 0 && !S_ISREG(status.st_mode)) {
 		if (S_ISDIR(status.st_mode))
-			return spec_error_set(error, SPEC_EIO, "'%s' is a directory", output->path);
+			return spec_error_set(
+				error, SPEC_EIO, "'%s' is a directory", output->path);
 		output->fd = open(output->path, O_WRONLY | O_CLOEXEC);
 		if (output->fd < 0)
-			return spec_error_system(error, errno, "unable to open '%s'", output->path);
+			return spec_error_system(
+				error, errno, "unable to open '%s'", output->path);
 		output->terminal = isatty(output->fd);
 		return SPEC_OK;
 	}
 	if (lstat(output->path, &status) == 0) {
 		if (access(output->path, W_OK) != 0 && errno != ENOENT)
-			return spec_error_system(error, errno, "unable to write '%s'", output->path);
+			return spec_error_system(
+				error, errno, "unable to write '%s'", output->path);
 		output->target = realpath(output->path, NULL); /* through a symbolic link */
 		if (!output->target)
-			return spec_error_system(error, errno, "unable to create '%s'", output->path);
+			return spec_error_system(
+				error, errno, "unable to create '%s'", output->path);
 		if (stat(output->target, &status) == 0)
 			return open_beside(output, status.st_mode & 0777, error);
 	} else {
-		output->target = spec_memory_text(output->path, strlen(output->path), error);
+		output->target =
+			spec_memory_text(output->path, strlen(output->path), error);
 	}
 	return output->target ? open_beside(output, 0666 & ~mask, error) : SPEC_ENOMEM;
 }
@@ -202,7 +208,8 @@ give_name(struct spec_output *output, struct spec_error *error)
 			break;
 		close(guard);
 		unlink(output->temporary);
-		if (linkat(AT_FDCWD, from, AT_FDCWD, output->temporary, AT_SYMLINK_FOLLOW) == 0)
+		if (linkat(AT_FDCWD, from, AT_FDCWD, output->temporary,
+			    AT_SYMLINK_FOLLOW) == 0)
 			return SPEC_OK;
 		if (errno != EEXIST)
 			break;
@@ -242,7 +249,8 @@ spec_output_abandon(struct spec_output *output)
 		(void)unlink(output->temporary);
 	if (output->fd >= 0) {
 		if (output->standard && output->seekable)
-			(void)!ftruncate(output->fd, 0); /* 'tool > file' leaves no half a file */
+			(void)!ftruncate(
+				output->fd, 0); /* 'tool > file' leaves no half a file */
 		if (!output->standard)
 			(void)close(output->fd);
 	}
@@ -267,7 +275,8 @@ spec_output_scratch(struct spec_error *error)
 	sprintf(name, "%s/spectools.XXXXXX", folder);
 	fd = mkostemp(name, O_CLOEXEC);
 	if (fd < 0)
-		spec_error_system(error, errno, "unable to create a temporary file in '%s'", folder);
+		spec_error_system(
+			error, errno, "unable to create a temporary file in '%s'", folder);
 	else
 		(void)unlink(name);
 	free(name);

@@ -14,11 +14,11 @@
 
 struct spec_output {
 	int fd;
-	char *path;       /* as the user wrote it; "<stdout>" for "-" */
-	char *target;     /* what commit renames onto, or null: written in place */
-	char *temporary;  /* the temporary name, or null while it has none */
-	int standard;     /* it is standard output */
-	int seekable;     /* a regular file at its beginning: may be written out of order */
+	char *path;      /* as the user wrote it; "<stdout>" for "-" */
+	char *target;    /* what commit renames onto, or null: written in place */
+	char *temporary; /* the temporary name, or null while it has none */
+	int standard;    /* it is standard output */
+	int seekable;    /* a regular file at its beginning: may be written out of order */
 	int terminal;
 	int64_t position; /* where spec_output_write goes on */
 };
@@ -28,8 +28,8 @@ enum spec_status spec_output_open(
 	struct spec_output *output, const char *path, struct spec_error *error);
 
 /* Writes all the bytes at the current position. */
-enum spec_status spec_output_write(struct spec_output *output, const void *data, size_t size,
-	struct spec_error *error);
+enum spec_status spec_output_write(struct spec_output *output, const void *data,
+	size_t size, struct spec_error *error);
 
 /* Writes all the bytes at an offset; only where output->seekable. */
 enum spec_status spec_output_write_at(struct spec_output *output, const void *data,

@@ -54,7 +54,8 @@ spec_parallel_run(
 		job[started] = (struct job){work, argument, started};
 		failure = pthread_create(&handle[started], NULL, run_job, &job[started]);
 		if (failure) {
-			status = spec_error_system(error, failure, "unable to start thread %d", started);
+			status = spec_error_system(
+				error, failure, "unable to start thread %d", started);
 			break;
 		}
 	}

@@ -33,17 +33,60 @@ spec_source_open(struct spec_source *source, const char *path, size_t head_limit
 	}
 	if (S_ISDIR(status.st_mode)) {
 		spec_source_close(source);
-		return spec_error_set(error, SPEC_EIO, "unable to read '%s': is a directory", path);
+		return spec_error_set(
+			error, SPEC_EIO, "unable to read '%s': is a directory", path);
 	}
 	if (S_ISREG(status.st_mode)) {
 		source->base = standard ? lseek(source->fd, 0, SEEK_CUR) : 0;
 		source->seekable = source->base >= 0;
-		source->size = status.st_size > source->base ? status.st_size - source->base : 0;
+		source->size =
+			status.st_size > source->base ? status.st_size - source->base : 0;
 		(void)posix_fadvise(source->fd, 0, 0, POSIX_FADV_SEQUENTIAL);
 	} else if (S_ISFIFO(status.st_mode)) {
 		(void)fcntl(source->fd, F_SETPIPE_SZ, PIPE_BYTES);
 	}
 	return SPEC_OK;
+}
+
+/* tee(2) copies what a pipe holds and leaves it there. */
+static int
+peek_pipe(int fd)
+{
+	unsigned char byte;
+	int copy[2], result = -1;
+
+	if (pipe2(copy, O_CLOEXEC) < 0)
+		return -1;
+	if (tee(fd, copy[1], 1, 0) == 1 && read(copy[0], &byte, 1) == 1)
+		result = byte;
+	close(copy[0]);
+	close(copy[1]);
+	return result;
+}
+
+int
+spec_source_peek(const char *path)
+{
+	int standard = strcmp(path, "-") == 0;
+	/* A descriptor of ours opens again without harm; a named FIFO would lose its writer. */
+	int shared = standard || strncmp(path, "/dev/", 5) == 0 ||
+		     strncmp(path, "/proc/self/fd/", 14) == 0;
+	int fd = standard ? STDIN_FILENO
+			  : open(path, O_RDONLY | O_CLOEXEC | (shared ? 0 : O_NONBLOCK));
+	struct stat status;
+	unsigned char byte;
+	int result = -1;
+
+	if (fd >= 0 && fstat(fd, &status) == 0) {
+		if (S_ISREG(status.st_mode) &&
+			pread(fd, &byte, 1, standard ? lseek(fd, 0, SEEK_CUR) : 0) == 1)
+			result = byte;
+		else if (shared && S_ISFIFO(status.st_mode))
+			result = peek_pipe(fd);
+	}
+	if (fd > STDIN_FILENO)
+		close(fd);
+	return result;
 }
 
 void
@@ -72,7 +115,8 @@ read_fully(struct spec_source *source, void *data, size_t size, int64_t offset, 
 	*got = 0;
 	while (*got < size) {
 		ssize_t taken = offset < 0 ? read(source->fd, byte + *got, size - *got)
-					   : pread(source->fd, byte + *got, size - *got, offset + *got);
+					   : pread(source->fd, byte + *got, size - *got,
+						     offset + *got);
 
 		if (taken < 0 && errno == EINTR)
 			continue;
@@ -97,7 +141,8 @@ extend_head(struct spec_source *source, size_t wanted, struct spec_error *error)
 		return SPEC_OK;
 	if (wanted > source->head_limit)
 		return spec_error_set(error, SPEC_ERANGE,
-			"%s: the header is longer than the limit of %zu bytes (--limit header=BYTES)",
+			"%s: the header is longer than the limit of %zu bytes (--limit "
+			"header=BYTES)",
 			source->name, source->head_limit);
 	status = spec_memory_grow(
 		&head, &source->head_room, wanted, 1, "bytes of the header", error);
@@ -130,8 +175,8 @@ skip(struct spec_source *source, int64_t count, struct spec_error *error)
 }
 
 static enum spec_status
-read_stream(struct spec_source *source, void *data, size_t size, int64_t offset, size_t *got,
-	struct spec_error *error)
+read_stream(struct spec_source *source, void *data, size_t size, int64_t offset,
+	size_t *got, struct spec_error *error)
 {
 	enum spec_status status = SPEC_OK;
 	size_t taken;
@@ -140,7 +185,8 @@ read_stream(struct spec_source *source, void *data, size_t size, int64_t offset,
 	if (!source->sealed)
 		status = extend_head(source, offset + size, error);
 	if (status == SPEC_OK && offset < (int64_t)source->head_size) {
-		*got = source->head_size - offset < size ? source->head_size - offset : size;
+		*got = source->head_size - offset < size ? source->head_size - offset
+							 : size;
 		memcpy(data, source->head + offset, *got);
 	}
 	if (status != SPEC_OK || *got == size || !source->sealed)
@@ -164,11 +210,12 @@ spec_source_read(struct spec_source *source, void *data, size_t size, int64_t of
 {
 	*got = 0;
 	if (offset < 0 || offset > INT64_MAX / 2 || size > INT64_MAX / 2)
-		return spec_error_set(
-			error, SPEC_EFORMAT, "%s: an offset lies outside the file", source->name);
+		return spec_error_set(error, SPEC_EFORMAT,
+			"%s: an offset lies outside the file", source->name);
 	if (!source->sealed && (size_t)offset + size > source->head_limit)
 		return spec_error_set(error, SPEC_ERANGE,
-			"%s: the header is longer than the limit of %zu bytes (--limit header=BYTES)",
+			"%s: the header is longer than the limit of %zu bytes (--limit "
+			"header=BYTES)",
 			source->name, source->head_limit);
 	return source->seekable
 		       ? read_fully(source, data, size, source->base + offset, got, error)

@@ -12,11 +12,11 @@
 
 struct spec_source {
 	int fd;
-	char *name;        /* as the user wrote it; "<stdin>" for "-" */
+	char *name; /* as the user wrote it; "<stdin>" for "-" */
 	int seekable;
-	int64_t size;      /* bytes, or -1 where it is not known */
-	int64_t base;      /* where the data begin in the file */
-	int64_t position;  /* of a stream: bytes taken from it */
+	int64_t size;     /* bytes, or -1 where it is not known */
+	int64_t base;     /* where the data begin in the file */
+	int64_t position; /* of a stream: bytes taken from it */
 	unsigned char *head;
 	size_t head_size, head_room;
 	size_t head_limit; /* bytes of the head that may be read before it is sealed */
@@ -26,6 +26,13 @@ struct spec_source {
 /* path "-" is standard input. A directory is an error. */
 enum spec_status spec_source_open(struct spec_source *source, const char *path,
 	size_t head_limit, struct spec_error *error);
+
+/*
+ * The first byte of a file, or of a pipe that is standard input or another open
+ * descriptor (/dev/fd/N); it is left there for the next reader. -1 where it cannot
+ * be told: nothing there, or a named FIFO, which a second opening would upset.
+ */
+int spec_source_peek(const char *path);
 
 void spec_source_close(struct spec_source *source);
 

@@ -110,7 +110,8 @@ edit_distance(const char *a, const char *b)
 }
 
 static void
-find_nearest(const struct cli_option *option, const char *name, const char **best, int *least)
+find_nearest(
+	const struct cli_option *option, const char *name, const char **best, int *least)
 {
 	for (; option->name; option++) {
 		int distance = edit_distance(name, option->name);
@@ -140,7 +141,8 @@ find_in(const struct cli_option *option, char letter, const char *name, size_t l
 {
 	for (; option->name; option++) {
 		if (letter ? option->letter == letter
-			   : strlen(option->name) == length && memcmp(option->name, name, length) == 0)
+			   : strlen(option->name) == length &&
+					memcmp(option->name, name, length) == 0)
 			return option;
 	}
 	return NULL;
@@ -149,7 +151,8 @@ find_in(const struct cli_option *option, char letter, const char *name, size_t l
 static const struct cli_option *
 find(const struct cli *cli, char letter, const char *name, size_t length)
 {
-	const struct cli_option *option = find_in(cli->program->options, letter, name, length);
+	const struct cli_option *option =
+		find_in(cli->program->options, letter, name, length);
 
 	return option ? option : find_in(cli_common_options, letter, name, length);
 }
@@ -169,7 +172,8 @@ take_argument(struct cli *cli, const struct cli_option *option, const char *atta
 		cli->value = attached;
 	} else {
 		if (cli->count == 0)
-			cli_usage(cli, "option '--%s' needs an argument (%s)", option->name, option->argument);
+			cli_usage(cli, "option '--%s' needs an argument (%s)", option->name,
+				option->argument);
 		cli->value = *cli->argument++;
 		cli->count--;
 	}
@@ -184,8 +188,8 @@ take_long(struct cli *cli, const char *text)
 	if (!option) {
 		char name[LONGEST_NAME + 1];
 
-		snprintf(name, sizeof name, "%.*s", (int)(length < LONGEST_NAME ? length : LONGEST_NAME),
-			text);
+		snprintf(name, sizeof name, "%.*s",
+			(int)(length < LONGEST_NAME ? length : LONGEST_NAME), text);
 		unknown_option(cli, name);
 	}
 	if (text[length] == '=' && !option->argument)

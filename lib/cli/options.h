@@ -26,7 +26,7 @@ extern const struct cli_option cli_common_options[];
 
 struct cli {
 	const struct cli_program *program;
-	char **argument;   /* what remains */
+	char **argument; /* what remains */
 	int count;
 	const char *cluster; /* the rest of "-qo" */
 	int operands_only;
@@ -52,7 +52,8 @@ void cli_warn(const struct cli *cli, const char *format, ...)
 	__attribute__((format(printf, 2, 3)));
 
 /* Ends the program with the error's line when status is not SPEC_OK. */
-void cli_check(const struct cli *cli, enum spec_status status, const struct spec_error *error);
+void cli_check(
+	const struct cli *cli, enum spec_status status, const struct spec_error *error);
 
 /* Closes stdout, checked, and returns the status to exit with: failed output is a failed run. */
 int cli_finish(const struct cli *cli, int status);
