@@ -1,0 +1,574 @@
+#include "image/convert.h"
+
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+
+#define SAME_NM 1e-3 /* a band asked for by its wavelength may be off by this much */
+#define RUN 256      /* pixels summed at a time */
+
+static enum spec_status
+add_term(struct spec_convert *convert, size_t channel, double weight,
+	struct spec_error *error)
+{
+	void *channels = convert->channel, *weights = convert->weight;
+	enum spec_status status = spec_memory_grow(&channels, &convert->channel_room,
+		convert->terms + 1, sizeof *convert->channel, "weights", error);
+
+	convert->channel = channels;
+	if (status == SPEC_OK)
+		status = spec_memory_grow(&weights, &convert->weight_room,
+			convert->terms + 1, sizeof *convert->weight, "weights", error);
+	convert->weight = weights;
+	if (status != SPEC_OK)
+		return status;
+	convert->channel[convert->terms] = channel;
+	convert->weight[convert->terms] = weight;
+	convert->wanted[channel] = 1;
+	convert->terms++;
+	return SPEC_OK;
+}
+
+static int
+floor_divide(int a, int b)
+{
+	return a / b - (a % b < 0);
+}
+
+static enum spec_status
+set_windows(struct spec_convert *convert, const struct spec_convert_setup *setup,
+	const char *name, struct spec_error *error)
+{
+	const struct spec_window *whole = &convert->input->data;
+	struct spec_window *data = &convert->image.data, *display = &convert->image.display;
+	int n = setup->downsample;
+
+	convert->downsample = n;
+	if (setup->has_crop) {
+		const struct spec_window *crop = &setup->crop;
+		long long width = (long long)spec_window_width(whole);
+		long long height = (long long)spec_window_height(whole);
+
+		if (crop->x0 < 0 || crop->y0 < 0 || crop->x1 > width || crop->y1 > height ||
+			crop->x0 >= crop->x1 || crop->y0 >= crop->y1)
+			return spec_error_set(error, SPEC_ERANGE,
+				"%s: the crop %d,%d,%d,%d is empty or not inside "
+				"0,0,%lld,%lld",
+				name, crop->x0, crop->y0, crop->x1, crop->y1, width,
+				height);
+		convert->x0 = crop->x0;
+		convert->y0 = crop->y0;
+		*data = (struct spec_window){whole->x0 + crop->x0, whole->y0 + crop->y0,
+			whole->x0 + crop->x1, whole->y0 + crop->y1};
+	}
+	if (n == 1)
+		return SPEC_OK;
+	if (data->x0 % n || data->y0 % n || data->x1 % n || data->y1 % n)
+		return spec_error_set(error, SPEC_ERANGE,
+			"%s: the window %d,%d,%d,%d is not made of %d x %d pixels (--crop "
+			"it first)",
+			name, data->x0, data->y0, data->x1, data->y1, n, n);
+	*data = (struct spec_window){
+		data->x0 / n, data->y0 / n, data->x1 / n, data->y1 / n};
+	*display = (struct spec_window){floor_divide(display->x0, n),
+		floor_divide(display->y0, n), -floor_divide(-display->x1, n),
+		-floor_divide(-display->y1, n)};
+	return SPEC_OK;
+}
+
+/* The bands that --band names must be there: nothing is interpolated. */
+static enum spec_status
+match_bands(const struct spec_image *input, const struct spec_grid *wanted,
+	struct spec_grid *found, const char *name, struct spec_error *error)
+{
+	enum spec_status status = spec_grid_new(wanted->count, found, error);
+
+	for (size_t i = 0; i < wanted->count && status == SPEC_OK; i++) {
+		double target = wanted->wavelength_nm[i];
+		size_t best = 0;
+
+		for (size_t j = 1; j < input->bands; j++) {
+			if (fabs(input->wavelength_nm[j] - target) <
+				fabs(input->wavelength_nm[best] - target))
+				best = j;
+		}
+		found->wavelength_nm[i] = input->wavelength_nm[best];
+		if (fabs(input->wavelength_nm[best] - target) > SAME_NM)
+			status = spec_error_set(error, SPEC_ERANGE,
+				"%s: has no band at %g nm; the nearest is at %g nm (--grid "
+				"interpolates)",
+				name, target, input->wavelength_nm[best]);
+	}
+	return status;
+}
+
+/* Bins stay bins only where the bands stay as they are. */
+static enum spec_status
+settle_bins(struct spec_convert *convert, const struct spec_grid *grid,
+	struct spec_error *error)
+{
+	const struct spec_image *input = convert->input;
+	double edges_nm[2];
+
+	if (!input->edges_nm || !grid)
+		return SPEC_OK;
+	for (size_t i = 0; grid->count == 1 && i < input->bands; i++) {
+		if (fabs(input->wavelength_nm[i] - grid->wavelength_nm[0]) > SAME_NM)
+			continue;
+		edges_nm[0] = input->edges_nm[i];
+		edges_nm[1] = input->edges_nm[i + 1];
+		return spec_image_set_bins(&convert->image, edges_nm, 1, error);
+	}
+	return spec_image_set_bins(&convert->image, NULL, 0, error);
+}
+
+static int
+changes_values(const struct spec_convert_setup *setup)
+{
+	return setup->multiplies > 0 || setup->illuminate || setup->scale != 1;
+}
+
+/* A preview of other values than those in the bands would mislead. */
+static void
+drop_preview(struct spec_image *image)
+{
+	size_t kept = 0;
+
+	for (size_t i = 0; i < image->channels; i++) {
+		const char *name = image->channel[i].name;
+
+		if (strlen(name) == 1 && strchr("RGB", name[0]))
+			free(image->channel[i].name);
+		else
+			image->channel[kept++] = image->channel[i];
+	}
+	image->channels = kept;
+}
+
+static enum spec_sample
+sample_of_bands(const struct spec_image *input, int half)
+{
+	if (half)
+		return SPEC_SAMPLE_HALF;
+	return input->channel[input->band_channel[0]].sample == SPEC_SAMPLE_HALF
+		       ? SPEC_SAMPLE_HALF
+		       : SPEC_SAMPLE_FLOAT;
+}
+
+/* The output's bands: those of the grid, or the input's own, in the layout's names. */
+static enum spec_status
+set_bands(struct spec_convert *convert, const struct spec_convert_setup *setup,
+	const struct spec_grid *grid, const char *name, struct spec_error *error)
+{
+	const struct spec_image *input = convert->input;
+	struct spec_image *image = &convert->image;
+	enum spec_role role = setup->illuminate ? SPEC_ROLE_EMISSIVE : input->role;
+	enum spec_status status = spec_image_index(image, name, error);
+
+	if (status == SPEC_OK && input->edges_nm)
+		status = spec_image_set_bins(image, input->edges_nm, input->bands, error);
+	if (status == SPEC_OK)
+		status = settle_bins(convert, grid, error);
+	if (status != SPEC_OK)
+		return status;
+	if (grid || setup->illuminate) {
+		spec_image_remove_bands(image);
+		status = spec_image_add_bands(image, role, input->stokes,
+			grid ? grid->wavelength_nm : input->wavelength_nm,
+			grid ? grid->count : input->bands, sample_of_bands(input, 0),
+			error);
+	}
+	for (size_t i = 0; i < image->channels; i++) {
+		struct spec_channel *channel = &image->channel[i];
+
+		if (channel->role == SPEC_ROLE_OTHER)
+			continue;
+		if (setup->half || channel->sample == SPEC_SAMPLE_UINT)
+			channel->sample =
+				setup->half ? SPEC_SAMPLE_HALF : SPEC_SAMPLE_FLOAT;
+	}
+	if (changes_values(setup))
+		drop_preview(image);
+	return status == SPEC_OK ? spec_image_rename_bands(image, name, error) : status;
+}
+
+static enum spec_status
+set_attributes(struct spec_convert *convert, const struct spec_convert_setup *setup,
+	struct spec_error *error)
+{
+	struct spec_image *image = &convert->image;
+	enum spec_status status =
+		spec_image_set_text(image, "spectralLayoutVersion", "1.0", error);
+
+	if (status == SPEC_OK && setup->illuminate)
+		status = spec_image_set_text(
+			image, "spec:quantity", "radiance per nm", error);
+	if (status == SPEC_OK && image->role == SPEC_ROLE_EMISSIVE &&
+		!spec_image_attribute(image, "emissiveUnits"))
+		status = spec_image_set_text(image, "emissiveUnits", "W.m^-2.sr^-1", error);
+	return status;
+}
+
+/* What all curves together multiply the light at a wavelength by. */
+static enum spec_status
+factor_at(const struct spec_convert_setup *setup, double wavelength_nm, double *factor,
+	struct spec_error *error)
+{
+	enum spec_status status = SPEC_OK;
+
+	*factor = setup->scale;
+	for (size_t i = 0; i < setup->multiplies && status == SPEC_OK; i++) {
+		double value = 0;
+
+		status = spec_curve_sample(&setup->multiply[i], 0, setup->extrapolate,
+			&wavelength_nm, 1, &value, error);
+		*factor *= value;
+	}
+	return status;
+}
+
+static enum spec_status
+power_at(const struct spec_convert_setup *setup, double wavelength_nm, double *power,
+	struct spec_error *error)
+{
+	*power = 1;
+	if (!setup->illuminate)
+		return SPEC_OK;
+	return spec_curve_sample(
+		setup->illuminate, 0, setup->extrapolate, &wavelength_nm, 1, power, error);
+}
+
+/* One band of the output: the input's band, or the two that it lies between. */
+static enum spec_status
+add_band_terms(struct spec_convert *convert, const struct spec_convert_setup *setup,
+	double wavelength_nm, int stokes, double factor, const char *name,
+	struct spec_error *error)
+{
+	const struct spec_image *input = convert->input;
+	const double *known = input->wavelength_nm;
+	const size_t *channel = input->band_channel + (size_t)stokes * input->bands;
+	size_t last = input->bands - 1, i = 0;
+	double power, part;
+	enum spec_status status;
+
+	if (wavelength_nm < known[0] - SAME_NM || wavelength_nm > known[last] + SAME_NM) {
+		if (setup->extrapolate == SPEC_EXTRAPOLATE_REFUSE)
+			return spec_error_set(error, SPEC_ERANGE,
+				"%s: %g nm is outside its bands, %g..%g nm (--extrapolate "
+				"zero|constant)",
+				name, wavelength_nm, known[0], known[last]);
+		if (setup->extrapolate == SPEC_EXTRAPOLATE_ZERO)
+			factor = 0;
+	}
+	while (i < last && known[i + 1] <= wavelength_nm + SAME_NM)
+		i++;
+	status = power_at(setup, wavelength_nm, &power, error);
+	if (status != SPEC_OK)
+		return status;
+	factor *= power;
+	part = i < last ? (wavelength_nm - known[i]) / (known[i + 1] - known[i]) : 0;
+	if (part * (known[i < last ? i + 1 : i] - known[i]) <= SAME_NM)
+		return add_term(convert, channel[i], factor, error);
+	status = add_term(convert, channel[i], factor * (1 - part), error);
+	return status == SPEC_OK ? add_term(convert, channel[i + 1], factor * part, error)
+				 : status;
+}
+
+/* Light that comes in at other wavelengths and leaves at this one. */
+static enum spec_status
+add_reradiated_terms(struct spec_convert *convert, const struct spec_convert_setup *setup,
+	double wavelength_nm, double factor, struct spec_error *error)
+{
+	const struct spec_image *input = convert->input;
+	enum spec_status status = SPEC_OK;
+
+	for (size_t i = 0; i < input->channels && status == SPEC_OK; i++) {
+		const struct spec_channel *channel = &input->channel[i];
+		double power;
+
+		if (channel->role != SPEC_ROLE_BISPECTRAL ||
+			fabs(channel->reradiated_nm - wavelength_nm) > SAME_NM)
+			continue;
+		status = power_at(setup, channel->wavelength_nm, &power, error);
+		if (status == SPEC_OK)
+			status = add_term(convert, i, factor * power, error);
+	}
+	return status;
+}
+
+static size_t
+find_channel(const struct spec_image *image, const struct spec_channel *like)
+{
+	for (size_t i = 0; i < image->channels; i++) {
+		const struct spec_channel *channel = &image->channel[i];
+
+		if (like->role == SPEC_ROLE_BISPECTRAL
+				? channel->role == like->role &&
+					  fabs(channel->wavelength_nm -
+						  like->wavelength_nm) < 1e-6 &&
+					  fabs(channel->reradiated_nm -
+						  like->reradiated_nm) < 1e-6
+				: strcmp(channel->name, like->name) == 0)
+			return i;
+	}
+	return 0; /* every channel of the output that is no band was the input's */
+}
+
+static enum spec_status
+add_channel_terms(struct spec_convert *convert, const struct spec_convert_setup *setup,
+	const struct spec_channel *channel, const char *name, struct spec_error *error)
+{
+	enum spec_status status;
+	double factor = 1;
+
+	if (channel->role == SPEC_ROLE_OTHER)
+		return add_term(convert, find_channel(convert->input, channel), 1, error);
+	status = factor_at(setup,
+		channel->role == SPEC_ROLE_BISPECTRAL ? channel->reradiated_nm
+						      : channel->wavelength_nm,
+		&factor, error);
+	if (status != SPEC_OK)
+		return status;
+	if (channel->role == SPEC_ROLE_BISPECTRAL)
+		return add_term(
+			convert, find_channel(convert->input, channel), factor, error);
+	status = add_band_terms(convert, setup, channel->wavelength_nm, channel->stokes,
+		factor, name, error);
+	if (status == SPEC_OK && setup->illuminate)
+		status = add_reradiated_terms(
+			convert, setup, channel->wavelength_nm, factor, error);
+	return status;
+}
+
+static enum spec_status
+plan_terms(struct spec_convert *convert, const struct spec_convert_setup *setup,
+	const char *name, struct spec_error *error)
+{
+	size_t channels = convert->image.channels;
+	enum spec_status status = SPEC_OK;
+
+	convert->first =
+		spec_memory_new(channels + 1, sizeof *convert->first, "channels", error);
+	convert->wanted = spec_memory_new(convert->input->channels, 1, "channels", error);
+	if (!convert->first || !convert->wanted)
+		return SPEC_ENOMEM;
+	for (size_t i = 0; i < channels && status == SPEC_OK; i++) {
+		convert->first[i] = convert->terms;
+		status = add_channel_terms(
+			convert, setup, &convert->image.channel[i], name, error);
+	}
+	convert->first[channels] = convert->terms;
+	return status;
+}
+
+static enum spec_status
+check_setup(const struct spec_image *input, const struct spec_convert_setup *setup,
+	const char *name, struct spec_error *error)
+{
+	int spectral = setup->grid || setup->bands || changes_values(setup);
+
+	if (input->bands == 0 && spectral)
+		return spec_error_set(
+			error, SPEC_EFORMAT, "%s: has no spectral channel", name);
+	if (setup->illuminate && input->role != SPEC_ROLE_REFLECTIVE)
+		return spec_error_set(error, SPEC_EUSAGE,
+			"%s: only reflectance (T) can be illuminated", name);
+	if (input->bispectral > 0 && (setup->grid || setup->bands))
+		return spec_error_set(error, SPEC_EUNSUPPORTED,
+			"%s: is bispectral; its grid cannot be changed (--illuminate it "
+			"first)",
+			name);
+	return SPEC_OK;
+}
+
+enum spec_status
+spec_convert_plan(struct spec_convert *convert, const struct spec_image *input,
+	const struct spec_convert_setup *setup, const char *name, struct spec_error *error)
+{
+	struct spec_grid found = {0};
+	const struct spec_grid *grid = setup->grid;
+	enum spec_status status = check_setup(input, setup, name, error);
+
+	*convert = (struct spec_convert){.input = input};
+	if (status == SPEC_OK && setup->bands) {
+		status = match_bands(input, setup->bands, &found, name, error);
+		grid = &found;
+	}
+	if (status == SPEC_OK)
+		status = spec_image_copy(&convert->image, input, error);
+	if (status == SPEC_OK)
+		status = set_windows(convert, setup, name, error);
+	if (status == SPEC_OK && input->bands > 0)
+		status = set_bands(convert, setup, grid, name, error);
+	else if (status == SPEC_OK)
+		status = spec_image_index(&convert->image, name, error);
+	if (status == SPEC_OK && input->bands > 0)
+		status = set_attributes(convert, setup, error);
+	if (status == SPEC_OK)
+		status = plan_terms(convert, setup, name, error);
+	spec_grid_free(&found);
+	if (status != SPEC_OK)
+		spec_convert_free(convert);
+	return status;
+}
+
+void
+spec_convert_free(struct spec_convert *convert)
+{
+	spec_image_clear(&convert->image);
+	free(convert->first);
+	free(convert->channel);
+	free(convert->weight);
+	free(convert->wanted);
+	*convert = (struct spec_convert){0};
+}
+
+__attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default"))) static void
+scale_row(float *restrict to, const float *restrict from, double weight, size_t count)
+{
+	for (size_t x = 0; x < count; x++)
+		to[x] = (float)(weight * from[x]);
+}
+
+__attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default"))) static void
+blend_row(float *restrict to, const float *restrict a, const float *restrict b, double wa,
+	double wb, size_t count)
+{
+	for (size_t x = 0; x < count; x++)
+		to[x] = (float)(wa * a[x] + wb * b[x]);
+}
+
+/* Any number of terms over n x n pixels each, summed in double. */
+static void
+sum_row(const struct spec_convert *convert, const struct spec_stream_worker *worker,
+	size_t channel, int y, float *to, size_t width)
+{
+	int n = convert->downsample;
+	double share = 1.0 / ((double)n * n), sum[RUN];
+
+	for (size_t x0 = 0; x0 < width; x0 += RUN) {
+		size_t count = width - x0 < RUN ? width - x0 : RUN;
+
+		memset(sum, 0, sizeof sum);
+		for (size_t t = convert->first[channel]; t < convert->first[channel + 1];
+			t++) {
+			for (int line = 0; line < n; line++) {
+				const float *from = spec_decoder_row(worker->decoder[0],
+							    y + line, convert->channel[t]) +
+						    convert->x0 + x0 * n;
+
+				for (size_t x = 0; x < count; x++)
+					for (int i = 0; i < n; i++)
+						sum[x] += convert->weight[t] *
+							  from[x * n + i];
+			}
+		}
+		for (size_t x = 0; x < count; x++)
+			to[x0 + x] = (float)(sum[x] * share);
+	}
+}
+
+/* The value that most of the n x n pixels have; the first of them where several lead. */
+static uint32_t
+most_frequent(const struct spec_convert *convert, const struct spec_stream_worker *worker,
+	size_t channel, int y, size_t x)
+{
+	size_t n = convert->downsample;
+	uint32_t best = 0;
+	size_t best_count = 0;
+
+	for (size_t i = 0; i < n * n; i++) {
+		uint32_t candidate, other;
+		size_t count = 0;
+
+		memcpy(&candidate,
+			spec_decoder_row(worker->decoder[0], y + (int)(i / n), channel) +
+				convert->x0 + x * n + i % n,
+			sizeof candidate);
+		for (size_t j = 0; j < n * n; j++) {
+			memcpy(&other,
+				spec_decoder_row(
+					worker->decoder[0], y + (int)(j / n), channel) +
+					convert->x0 + x * n + j % n,
+				sizeof other);
+			count += other == candidate;
+		}
+		if (count > best_count) {
+			best = candidate;
+			best_count = count;
+		}
+	}
+	return best;
+}
+
+static void
+convert_row(const struct spec_convert *convert, const struct spec_stream_worker *worker,
+	size_t channel, int y, float *to)
+{
+	size_t width = spec_window_width(&convert->image.data);
+	size_t first = convert->first[channel], count = convert->first[channel + 1] - first;
+	size_t source = convert->channel[first];
+	const float *from = spec_decoder_row(worker->decoder[0], y, source) + convert->x0;
+
+	if (convert->image.channel[channel].sample == SPEC_SAMPLE_UINT) {
+		for (size_t x = 0; x < width && convert->downsample > 1; x++) {
+			uint32_t value = most_frequent(convert, worker, source, y, x);
+
+			memcpy(to + x, &value, sizeof value);
+		}
+		if (convert->downsample == 1)
+			memcpy(to, from, width * sizeof *to);
+	} else if (convert->downsample > 1 || count > 2) {
+		sum_row(convert, worker, channel, y, to, width);
+	} else if (count == 2) {
+		blend_row(to, from,
+			spec_decoder_row(
+				worker->decoder[0], y, convert->channel[first + 1]) +
+				convert->x0,
+			convert->weight[first], convert->weight[first + 1], width);
+	} else if (convert->weight[first] == 1) {
+		memcpy(to, from, width * sizeof *to);
+	} else {
+		scale_row(to, from, convert->weight[first], width);
+	}
+}
+
+static enum spec_status
+kernel(void *state, struct spec_stream_worker *worker, int line, struct spec_error *error)
+{
+	const struct spec_convert *convert = state;
+	int y = convert->input->data.y0 + convert->y0 + line * convert->downsample;
+	int y_out = convert->image.data.y0 + line;
+	float *const *plane;
+	enum spec_status status = spec_packer_begin(worker->packer, y_out, &plane, error);
+
+	if (status != SPEC_OK)
+		return status;
+	for (size_t i = 0; i < convert->image.channels; i++)
+		convert_row(convert, worker, i, y, plane[i]);
+	return spec_packer_end(worker->packer, y_out, error);
+}
+
+enum spec_status
+spec_convert_run(struct spec_convert *convert, struct spec_reader *reader,
+	struct spec_writer *writer, const struct spec_settings *settings,
+	struct spec_error *error)
+{
+	struct spec_stream stream = {
+		.reader = {reader},
+		.wanted = {convert->wanted},
+		.readers = 1,
+		.writer = writer,
+		.first_line = convert->input->data.y0 + convert->y0,
+		.lines = (int)spec_window_height(&convert->image.data),
+		.lines_in = convert->downsample,
+		.state = convert,
+		.kernel = kernel,
+	};
+	enum spec_status status = spec_stream_run(&stream, settings, error);
+
+	return status == SPEC_OK ? spec_writer_finish(writer, error) : status;
+}

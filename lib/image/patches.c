@@ -1,0 +1,231 @@
+#include "image/patches.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "image/writer.h"
+
+static int
+is_reflective(const struct spec_curve *curve)
+{
+	return strcmp(curve->quantity, "reflectance") == 0 ||
+	       strcmp(curve->quantity, "transmittance") == 0;
+}
+
+static enum spec_status
+set_header(struct spec_image *image, const struct spec_curve *curve, enum spec_role role,
+	struct spec_error *error)
+{
+	const char *quantity =
+		role == SPEC_ROLE_REFLECTIVE ? curve->quantity : "radiance per nm";
+	enum spec_status status =
+		spec_image_set_text(image, "spectralLayoutVersion", "1.0", error);
+
+	if (status == SPEC_OK)
+		status = spec_image_set_text(image, "spec:quantity", quantity, error);
+	if (status == SPEC_OK && role == SPEC_ROLE_EMISSIVE)
+		status = spec_image_set_text(image, "emissiveUnits", "W.m^-2.sr^-1", error);
+	return status;
+}
+
+enum spec_status
+spec_patches_image(struct spec_image *image, const struct spec_curve *curve, size_t curves,
+	const struct spec_patches_setup *setup, struct spec_error *error)
+{
+	long long width =
+		(long long)setup->columns * (setup->patch + setup->gap) + setup->gap;
+	long long height =
+		(long long)setup->rows * (setup->patch + setup->gap) + setup->gap;
+	enum spec_role role =
+		is_reflective(&curve[0]) ? SPEC_ROLE_REFLECTIVE : SPEC_ROLE_EMISSIVE;
+	enum spec_status status;
+
+	*image = (struct spec_image){.pixel_aspect_ratio = 1, .screen_window_width = 1};
+	if (curves > (size_t)setup->columns * (size_t)setup->rows)
+		return spec_error_set(error, SPEC_EUSAGE,
+			"%zu curves do not fit %d x %d patches", curves, setup->columns,
+			setup->rows);
+	if (width > 1 << 20 || height > 1 << 20)
+		return spec_error_set(error, SPEC_ERANGE,
+			"a chart of %lld x %lld pixels is too large", width, height);
+	for (size_t i = 1; i < curves; i++) {
+		if (is_reflective(&curve[i]) != is_reflective(&curve[0]))
+			return spec_error_set(error, SPEC_EUSAGE,
+				"'%s' is %s but '%s' is %s", curve[0].title,
+				curve[0].quantity, curve[i].title, curve[i].quantity);
+	}
+	image->data = image->display = (struct spec_window){0, 0, (int)width, (int)height};
+	status = set_header(image, &curve[0], role, error);
+	if (status == SPEC_OK)
+		status = spec_image_add_bands(image, role, 1, setup->grid->wavelength_nm,
+			setup->grid->count,
+			setup->half ? SPEC_SAMPLE_HALF : SPEC_SAMPLE_FLOAT, error);
+	if (status == SPEC_OK)
+		status = spec_image_index(image, "chart", error);
+	if (status != SPEC_OK)
+		spec_image_clear(image);
+	return status;
+}
+
+/* The curves' values: value[curve * bands + band]. */
+static enum spec_status
+sample(const struct spec_curve *curve, size_t curves,
+	const struct spec_patches_setup *setup, double **value, struct spec_error *error)
+{
+	size_t bands = setup->grid->count;
+	enum spec_status status = SPEC_OK;
+
+	*value = spec_memory_new(curves * bands, sizeof **value, "values", error);
+	if (!*value)
+		return SPEC_ENOMEM;
+	for (size_t i = 0; i < curves && status == SPEC_OK; i++)
+		status = spec_curve_sample(&curve[i], 0, setup->extrapolate,
+			setup->grid->wavelength_nm, bands, *value + i * bands, error);
+	return status;
+}
+
+/* Which curve stands at a pixel, or curves where it is black. */
+static size_t
+curve_at(const struct spec_patches_setup *setup, size_t curves, int x, int y)
+{
+	int step = setup->patch + setup->gap;
+	size_t index;
+
+	if (x % step < setup->gap || y % step < setup->gap)
+		return curves;
+	index = (size_t)(y / step) * (size_t)setup->columns + (size_t)(x / step);
+	return index < curves ? index : curves;
+}
+
+static enum spec_status
+write_lines(const struct spec_image *image, size_t curves,
+	const struct spec_patches_setup *setup, const double *value,
+	struct spec_packer *packer, struct spec_error *error)
+{
+	size_t width = spec_window_width(&image->data);
+	enum spec_status status = SPEC_OK;
+	float *const *plane;
+
+	for (int y = 0; y < image->data.y1 && status == SPEC_OK; y++) {
+		status = spec_packer_begin(packer, y, &plane, error);
+		for (size_t i = 0; i < image->bands && status == SPEC_OK; i++) {
+			float *row = plane[image->band_channel[i]];
+
+			for (size_t x = 0; x < width; x++) {
+				size_t index = curve_at(setup, curves, (int)x, y);
+
+				row[x] = index < curves
+						 ? (float)value[index * image->bands + i]
+						 : 0;
+			}
+		}
+		if (status == SPEC_OK)
+			status = spec_packer_end(packer, y, error);
+	}
+	return status;
+}
+
+enum spec_status
+spec_patches_write(const struct spec_image *image, const struct spec_curve *curve,
+	size_t curves, const struct spec_patches_setup *setup, struct spec_output *output,
+	const struct spec_settings *settings, struct spec_error *error)
+{
+	struct spec_writer *writer = NULL;
+	struct spec_packer *packer = NULL;
+	double *value = NULL;
+	enum spec_status status = sample(curve, curves, setup, &value, error);
+
+	if (status == SPEC_OK)
+		status = spec_writer_open(
+			&writer, image, output, settings->compression, error);
+	if (status == SPEC_OK)
+		status = spec_packer_open(&packer, writer, error);
+	if (status == SPEC_OK)
+		status = write_lines(image, curves, setup, value, packer, error);
+	if (status == SPEC_OK)
+		status = spec_writer_finish(writer, error);
+	spec_packer_close(packer);
+	spec_writer_close(writer);
+	free(value);
+	return status;
+}
+
+static enum spec_status
+new_curve(const struct spec_reader *reader, struct spec_curve *curve,
+	struct spec_error *error)
+{
+	const struct spec_image *image = spec_reader_image(reader);
+	size_t width = spec_window_width(&image->data);
+	size_t pixels = width * spec_window_height(&image->data);
+	char *quantity, column[48];
+	enum spec_status status;
+
+	if (image->bands == 0)
+		return spec_error_set(error, SPEC_EFORMAT, "%s: has no spectral channel",
+			spec_reader_name(reader));
+	if (pixels > SPEC_PATCHES_MOST_PIXELS)
+		return spec_error_set(error, SPEC_ERANGE,
+			"%s: %zu pixels are more than the %d that fit a text (--crop or "
+			"--downsample)",
+			spec_reader_name(reader), pixels, SPEC_PATCHES_MOST_PIXELS);
+	status = spec_curve_new(image->bands, pixels, curve, error);
+	for (size_t i = 0; i < pixels && status == SPEC_OK; i++) {
+		snprintf(column, sizeof column, "x%zuy%zu", i % width, i / width);
+		status = spec_curve_set_text(&curve->column[i], column, error);
+	}
+	if (status != SPEC_OK)
+		return status;
+	quantity = spec_image_quantity(image, error);
+	status = quantity ? spec_curve_set_text(&curve->quantity, quantity, error)
+			  : SPEC_ENOMEM;
+	free(quantity);
+	memcpy(curve->wavelength_nm, image->wavelength_nm, image->bands * sizeof(double));
+	return status;
+}
+
+/* The shortest decimal that reads back as the same float: 0.1, not 0.10000000149. */
+static double
+shortest(float value)
+{
+	char text[32];
+
+	for (int digits = 6; digits <= 9; digits++) {
+		snprintf(text, sizeof text, "%.*g", digits, value);
+		if (strtof(text, NULL) == value)
+			break;
+	}
+	return strtod(text, NULL);
+}
+
+enum spec_status
+spec_patches_curve(
+	struct spec_reader *reader, struct spec_curve *curve, struct spec_error *error)
+{
+	const struct spec_image *image = spec_reader_image(reader);
+	size_t width = spec_window_width(&image->data);
+	struct spec_decoder *decoder = NULL;
+	enum spec_status status = new_curve(reader, curve, error);
+
+	if (status == SPEC_OK)
+		status = spec_decoder_open(&decoder, reader, NULL, error);
+	for (int y = image->data.y0; y < image->data.y1 && status == SPEC_OK; y++) {
+		status = spec_decoder_fetch(decoder, y, y + 1, error);
+		if (status == SPEC_OK)
+			status = spec_decoder_decode(decoder, error);
+		for (size_t i = 0; i < image->bands && status == SPEC_OK; i++) {
+			const float *row =
+				spec_decoder_row(decoder, y, image->band_channel[i]);
+
+			for (size_t x = 0; x < width; x++)
+				curve->value[((y - image->data.y0) * width + x) *
+						     image->bands +
+					     i] = shortest(row[x]);
+		}
+	}
+	spec_decoder_close(decoder);
+	if (status != SPEC_OK)
+		spec_curve_free(curve);
+	return status;
+}

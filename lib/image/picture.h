@@ -1,0 +1,82 @@
+/*
+ * Writing a finished RGB picture row by row, in the format that the name of the
+ * file asks for. PNG, PPM and OpenEXR are written here; any other format goes
+ * through OpenImageIO, in a plugin that is loaded only then.
+ */
+#ifndef SPEC_IMAGE_PICTURE_H
+#define SPEC_IMAGE_PICTURE_H
+
+#include <stddef.h>
+
+#include "base/error.h"
+#include "base/output.h"
+#include "colour/space.h"
+
+/* Most pixels of a picture, width times height. */
+#define SPEC_PICTURE_MOST_PIXELS ((size_t)1 << 30)
+
+enum spec_picture_sample {
+	SPEC_PICTURE_U8,   /* uint8_t, 0..255 */
+	SPEC_PICTURE_U16,  /* uint16_t, 0..65535 */
+	SPEC_PICTURE_FLOAT /* linear, 1 is white; neither end is a limit */
+};
+
+enum spec_picture_format {
+	SPEC_PICTURE_PNG,
+	SPEC_PICTURE_PPM,
+	SPEC_PICTURE_EXR,
+	SPEC_PICTURE_PLUGIN
+};
+
+/* What spec_picture_choose found. Callers need only sample. */
+struct spec_picture_kind {
+	enum spec_picture_format format;
+	enum spec_picture_sample sample; /* what spec_picture_write is given */
+	int half;                        /* floats are stored with 16 bits */
+	char suffix[16];                 /* lower case, without the dot */
+};
+
+/*
+ * The format that the suffix of path asks for, in upper or lower case; "-" is PNG.
+ * bits: per sample, 8, 16 or 32, or 0: the format's usual. PNG and PPM (.ppm, .pnm)
+ * hold 8 (usual) or 16; EXR floats of 32 (usual) or 16; TIFF 8 (usual), 16, or floats
+ * of 32; HDR floats (32); every other format 8.
+ * Errors (SPEC_EUSAGE): no suffix, another number of bits; (SPEC_EUNSUPPORTED): no
+ * format of that suffix, bits that it cannot hold, the plugin cannot be loaded.
+ */
+enum spec_status spec_picture_choose(const char *path, int bits,
+	struct spec_picture_kind *kind, struct spec_error *error);
+
+struct spec_picture;
+
+/*
+ * Begins a picture. The output must live as long as the picture; committing or
+ * abandoning it stays the caller's. space: what the samples' numbers mean, or null:
+ * the file does not say. Integers are encoded by sRGB's transfer function where
+ * space->srgb_transfer is set, and are linear otherwise.
+ * Errors: the output is a terminal (SPEC_EUSAGE); no pixels, or more than
+ * SPEC_PICTURE_MOST_PIXELS (SPEC_ERANGE); what the system or the format refuses.
+ */
+enum spec_status spec_picture_open(struct spec_picture **picture,
+	const struct spec_picture_kind *kind, struct spec_output *output, size_t width,
+	size_t height, const struct spec_space *space, struct spec_error *error);
+
+/*
+ * The next count rows, from top to bottom: red, green, blue of each pixel, as the
+ * kind's samples, in this machine's byte order, aligned as C wants them. After an
+ * error every further call gives that error again. HDR holds nothing below 0: such
+ * samples, and NaN, become 0.
+ * Errors: more rows than the picture has (SPEC_EUSAGE); what the system or the
+ * format refuses.
+ */
+enum spec_status spec_picture_write(struct spec_picture *picture, const void *rows,
+	size_t count, struct spec_error *error);
+
+/* Ends the file. Errors: rows are missing (SPEC_EUSAGE), or as spec_picture_write's. */
+enum spec_status spec_picture_finish(
+	struct spec_picture *picture, struct spec_error *error);
+
+/* At any time, finished or not; null is harmless. */
+void spec_picture_close(struct spec_picture *picture);
+
+#endif

@@ -1,0 +1,59 @@
+/*
+ * Reading a spectral EXR image by blocks of scanlines: from a file at any place,
+ * from a pipe forward only. Scanlines and tiles, every compression but DWA, one
+ * part of several.
+ */
+#ifndef SPEC_IMAGE_READER_H
+#define SPEC_IMAGE_READER_H
+
+#include "base/error.h"
+#include "image/image.h"
+#include "image/settings.h"
+
+struct spec_reader;
+
+/*
+ * path "-" is standard input. With several parts, settings->part names one by
+ * number or name; without it the only part that has bands is taken, and
+ * where several have, that is an error that lists them. The image comes indexed.
+ */
+enum spec_status spec_reader_open(struct spec_reader **reader, const char *path,
+	const struct spec_settings *settings, struct spec_error *error);
+void spec_reader_close(struct spec_reader *reader);
+
+const struct spec_image *spec_reader_image(const struct spec_reader *reader);
+const char *spec_reader_name(const struct spec_reader *reader);
+
+/* Lines that are stored, and so decoded, together: 1, 16, 32, or a tile's height. */
+int spec_reader_chunk_lines(const struct spec_reader *reader);
+
+/* Bytes of one line as it is stored uncompressed. */
+size_t spec_reader_line_bytes(const struct spec_reader *reader);
+
+/* One worker's place to decode a block of lines into. */
+struct spec_decoder;
+
+/* wanted: one flag per channel of the image, or null for all. */
+enum spec_status spec_decoder_open(struct spec_decoder **decoder,
+	struct spec_reader *reader, const unsigned char *wanted, struct spec_error *error);
+void spec_decoder_close(struct spec_decoder *decoder);
+
+/*
+ * Takes what lines y0..y1-1 (of the data window) need from the file. Calls must
+ * not overlap in time, and go forward: y0 not before the last call's y1 - lines
+ * that share a chunk with it may be asked for again by another decoder.
+ */
+enum spec_status spec_decoder_fetch(
+	struct spec_decoder *decoder, int y0, int y1, struct spec_error *error);
+
+/* Decodes what was fetched. Decoders work side by side. */
+enum spec_status spec_decoder_decode(
+	struct spec_decoder *decoder, struct spec_error *error);
+
+/*
+ * The samples of a wanted channel in a fetched line: HALF converted to float, a
+ * UINT's number if it is a band, its 32 bits if it is not. Valid until the next fetch.
+ */
+const float *spec_decoder_row(const struct spec_decoder *decoder, int y, size_t channel);
+
+#endif

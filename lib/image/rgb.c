@@ -1,0 +1,258 @@
+#include "image/rgb.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "colour/observer.h"
+
+#define RUN 256 /* pixels whose sums stay in the nearest cache */
+
+/* Everything that ends in XYZ, before the matrix to RGB. */
+struct xyz_terms {
+	size_t count;
+	size_t *channel;
+	double *weight;
+};
+
+static enum spec_status
+observe_bands(const struct spec_image *image, const struct spec_rgb_setup *setup,
+	const struct spec_curve *illuminant, double *weight, double *outside,
+	struct spec_error *error)
+{
+	char *quantity = spec_image_quantity(image, error);
+	struct spec_bands bands = {image->bands, image->wavelength_nm, image->edges_nm, 0};
+	enum spec_status status;
+
+	if (!quantity)
+		return SPEC_ENOMEM;
+	bands.per_band = strstr(quantity, "per band") != NULL;
+	free(quantity);
+	status = spec_observer_weights(
+		setup->observer, illuminant, &bands, weight, outside, error);
+	return status;
+}
+
+/* The illuminant's power at a wavelength; outside its data it is zero. */
+static enum spec_status
+power_at(const struct spec_curve *illuminant, double wavelength_nm, double *power,
+	struct spec_error *error)
+{
+	*power = 1;
+	if (!illuminant)
+		return SPEC_OK;
+	return spec_curve_sample(
+		illuminant, 0, SPEC_EXTRAPOLATE_ZERO, &wavelength_nm, 1, power, error);
+}
+
+static size_t
+nearest_band(const struct spec_image *image, double wavelength_nm)
+{
+	size_t best = 0;
+
+	for (size_t i = 1; i < image->bands; i++) {
+		if (fabs(image->wavelength_nm[i] - wavelength_nm) <
+			fabs(image->wavelength_nm[best] - wavelength_nm))
+			best = i;
+	}
+	return best;
+}
+
+/* Sum over the observer's table of power times ybar: what the weights are relative to. */
+static enum spec_status
+luminance_of(const struct spec_curve *observer, const struct spec_curve *illuminant,
+	double *luminance, struct spec_error *error)
+{
+	*luminance = 0;
+	for (size_t i = 0; i < observer->count; i++) {
+		double power;
+		enum spec_status status =
+			power_at(illuminant, observer->wavelength_nm[i], &power, error);
+
+		if (status != SPEC_OK)
+			return status;
+		*luminance += power * observer->value[observer->count + i];
+	}
+	return SPEC_OK;
+}
+
+/* Light of the wavelength in that leaves at the wavelength out. */
+static enum spec_status
+add_bispectral(const struct spec_image *image, const struct spec_rgb_setup *setup,
+	struct xyz_terms *terms, size_t room, struct spec_error *error)
+{
+	double *plain = spec_memory_new(image->bands, 3 * sizeof *plain, "bands", error);
+	double outside, all, lit;
+	enum spec_status status =
+		plain ? observe_bands(image, setup, NULL, plain, &outside, error)
+		      : SPEC_ENOMEM;
+
+	if (status == SPEC_OK)
+		status = luminance_of(setup->observer, NULL, &all, error);
+	if (status == SPEC_OK)
+		status = luminance_of(setup->observer, setup->illuminant, &lit, error);
+	for (size_t i = 0; i < image->channels && status == SPEC_OK; i++) {
+		const struct spec_channel *channel = &image->channel[i];
+		size_t out;
+		double power;
+
+		if (channel->role != SPEC_ROLE_BISPECTRAL)
+			continue;
+		out = nearest_band(image, channel->reradiated_nm);
+		status = power_at(setup->illuminant, channel->wavelength_nm, &power, error);
+		terms->channel[terms->count] = i;
+		for (size_t j = 0; j < 3; j++)
+			terms->weight[j * room + terms->count] =
+				plain[j * image->bands + out] * power * all / lit;
+		terms->count++;
+	}
+	free(plain);
+	return status;
+}
+
+static enum spec_status
+collect_terms(const struct spec_image *image, const struct spec_rgb_setup *setup,
+	struct xyz_terms *terms, size_t room, double *outside, struct spec_error *error)
+{
+	const struct spec_curve *illuminant =
+		image->role == SPEC_ROLE_REFLECTIVE ? setup->illuminant : NULL;
+	double *weight = spec_memory_new(image->bands, 3 * sizeof *weight, "bands", error);
+	enum spec_status status = SPEC_ENOMEM;
+
+	if (weight)
+		status = observe_bands(image, setup, illuminant, weight, outside, error);
+	for (size_t i = 0; i < image->bands && status == SPEC_OK; i++) {
+		terms->channel[i] = image->band_channel[i];
+		for (size_t j = 0; j < 3; j++)
+			terms->weight[j * room + i] = weight[j * image->bands + i];
+	}
+	terms->count = image->bands;
+	free(weight);
+	if (status == SPEC_OK && image->bispectral > 0)
+		status = add_bispectral(image, setup, terms, room, error);
+	return status;
+}
+
+static enum spec_status
+matrix_of(const struct spec_image *image, const struct spec_rgb_setup *setup, double m[9],
+	struct spec_error *error)
+{
+	double adaptation[9], from[3], to[3];
+	enum spec_status status = spec_space_from_xyz(setup->space, m, error);
+
+	if (status != SPEC_OK || image->role != SPEC_ROLE_REFLECTIVE ||
+		setup->adaptation == SPEC_ADAPTATION_NONE)
+		return status;
+	status = spec_observer_white(setup->observer, setup->illuminant, from, error);
+	if (status != SPEC_OK)
+		return status;
+	spec_white_xyz(setup->space->white_xy, to);
+	status = spec_adaptation_matrix(setup->adaptation, from, to, adaptation, error);
+	if (status == SPEC_OK)
+		spec_matrix_multiply(m, adaptation, m);
+	return status;
+}
+
+static enum spec_status
+fill_plan(struct spec_rgb *rgb, const struct spec_image *image,
+	const struct spec_rgb_setup *setup, size_t room, struct spec_error *error)
+{
+	struct xyz_terms terms = {0, rgb->channel, rgb->weight};
+	double m[9], scale = exp2(setup->exposure);
+	enum spec_status status =
+		collect_terms(image, setup, &terms, room, &rgb->outside, error);
+
+	if (status == SPEC_OK)
+		status = matrix_of(image, setup, m, error);
+	rgb->terms = terms.count;
+	for (size_t i = 0; i < rgb->terms && status == SPEC_OK; i++) {
+		double xyz[3] = {
+			rgb->weight[i], rgb->weight[room + i], rgb->weight[2 * room + i]};
+		double linear[3];
+
+		spec_matrix_apply(m, xyz, linear);
+		for (size_t j = 0; j < 3; j++)
+			rgb->weight[j * room + i] = linear[j] * scale;
+	}
+	return status;
+}
+
+enum spec_status
+spec_rgb_plan(struct spec_rgb *rgb, const struct spec_image *image,
+	const struct spec_rgb_setup *setup, struct spec_error *error)
+{
+	size_t room = image->bands + image->bispectral;
+	enum spec_status status;
+
+	*rgb = (struct spec_rgb){0};
+	if (image->bands == 0)
+		return spec_error_set(error, SPEC_EFORMAT, "has no spectral channel");
+	rgb->channel = spec_memory_new(room, sizeof *rgb->channel, "bands", error);
+	rgb->weight = spec_memory_new(room, 3 * sizeof *rgb->weight, "bands", error);
+	status = rgb->channel && rgb->weight ? fill_plan(rgb, image, setup, room, error)
+					     : SPEC_ENOMEM;
+	if (status != SPEC_OK)
+		spec_rgb_free(rgb);
+	return status;
+}
+
+void
+spec_rgb_free(struct spec_rgb *rgb)
+{
+	free(rgb->channel);
+	free(rgb->weight);
+	*rgb = (struct spec_rgb){0};
+}
+
+/* Adds four channels at once: the sums are loaded and stored a quarter as often. */
+__attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default"))) static void
+add_four(double *restrict sum, const float *restrict a, const float *restrict b,
+	const float *restrict c, const float *restrict d, const double *w, size_t room,
+	size_t count)
+{
+	for (size_t x = 0; x < count; x++) {
+		double va = a[x], vb = b[x], vc = c[x], vd = d[x];
+
+		sum[x] += (w[0] * va + w[1] * vb) + (w[2] * vc + w[3] * vd);
+		sum[RUN + x] += (w[room] * va + w[room + 1] * vb) +
+				(w[room + 2] * vc + w[room + 3] * vd);
+		sum[2 * RUN + x] += (w[2 * room] * va + w[2 * room + 1] * vb) +
+				    (w[2 * room + 2] * vc + w[2 * room + 3] * vd);
+	}
+}
+
+static void
+add_one(double *restrict sum, const float *restrict a, const double *w, size_t room,
+	size_t count)
+{
+	for (size_t x = 0; x < count; x++) {
+		sum[x] += w[0] * a[x];
+		sum[RUN + x] += w[room] * a[x];
+		sum[2 * RUN + x] += w[2 * room] * a[x];
+	}
+}
+
+void
+spec_rgb_row(const struct spec_rgb *rgb, const float *const *plane, size_t width,
+	float *red, float *green, float *blue)
+{
+	const size_t room = rgb->terms;
+	double sum[3 * RUN];
+
+	for (size_t x0 = 0; x0 < width; x0 += RUN) {
+		size_t count = width - x0 < RUN ? width - x0 : RUN, i = 0;
+
+		memset(sum, 0, sizeof sum);
+		for (; i + 4 <= rgb->terms; i += 4)
+			add_four(sum, plane[i] + x0, plane[i + 1] + x0, plane[i + 2] + x0,
+				plane[i + 3] + x0, rgb->weight + i, room, count);
+		for (; i < rgb->terms; i++)
+			add_one(sum, plane[i] + x0, rgb->weight + i, room, count);
+		for (size_t x = 0; x < count; x++) {
+			red[x0 + x] = (float)sum[x];
+			green[x0 + x] = (float)sum[RUN + x];
+			blue[x0 + x] = (float)sum[2 * RUN + x];
+		}
+	}
+}

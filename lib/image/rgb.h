@@ -1,0 +1,46 @@
+/* From bands to RGB: one weighted sum per channel of the picture. */
+#ifndef SPEC_IMAGE_RGB_H
+#define SPEC_IMAGE_RGB_H
+
+#include <stddef.h>
+
+#include "base/error.h"
+#include "colour/space.h"
+#include "image/image.h"
+#include "spectrum/curve.h"
+
+struct spec_rgb_setup {
+	const struct spec_curve *observer;
+	const struct spec_curve *illuminant; /* of reflective images; null: equal energy */
+	enum spec_adaptation adaptation; /* of reflective images, to the space's white */
+	const struct spec_space *space;
+	double exposure; /* in stops: everything is multiplied by 2^exposure */
+};
+
+/* The sums: a channel of the image and what it adds to red, green and blue. */
+struct spec_rgb {
+	size_t terms;
+	size_t *channel;
+	double *weight; /* [3 * terms]: red's, then green's, then blue's */
+	double outside; /* fraction of Y that the image's range leaves out */
+};
+
+/*
+ * Emissive images: S0's bands; a radiance of 1 per nm at all wavelengths has Y = 1.
+ * Reflective ones: T under the illuminant; the perfect reflector has Y = 1.
+ * Bispectral channels add T.in.out times the illuminant at in, relative to the same
+ * Y, at out: their values are the elements of a discrete reradiation matrix.
+ * Errors: no bands, and those of spec_observer_weights.
+ */
+enum spec_status spec_rgb_plan(struct spec_rgb *rgb, const struct spec_image *image,
+	const struct spec_rgb_setup *setup, struct spec_error *error);
+void spec_rgb_free(struct spec_rgb *rgb);
+
+/*
+ * One row: plane[t] points to the samples of channel rgb->channel[t]; red, green and
+ * blue to width floats each. Sums are taken in double.
+ */
+void spec_rgb_row(const struct spec_rgb *rgb, const float *const *plane, size_t width,
+	float *red, float *green, float *blue);
+
+#endif

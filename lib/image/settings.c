@@ -1,0 +1,98 @@
+#include "image/settings.h"
+
+#include <openexr.h>
+#include <string.h>
+
+#include "base/number.h"
+#include "base/parallel.h"
+
+void
+spec_settings_init(struct spec_settings *settings)
+{
+	*settings = (struct spec_settings){
+		.limits = {.pixels = 1LL << 30,
+			.channels = 32767,
+			.header = 64LL << 20,
+			.memory = 4LL << 30},
+		.output = "-",
+		.compression = -1,
+		.threads = spec_parallel_processors(),
+		.history = 1,
+	};
+}
+
+static enum spec_status
+take_limit(struct spec_limits *limits, const char *text, struct spec_error *error)
+{
+	const struct {
+		const char *name;
+		long long *value;
+	} known[] = {{"pixels", &limits->pixels}, {"channels", &limits->channels},
+		{"header", &limits->header}, {"memory", &limits->memory}};
+	size_t length = strcspn(text, "=");
+
+	for (size_t i = 0; text[length] && i < sizeof known / sizeof known[0]; i++) {
+		if (strlen(known[i].name) == length &&
+			memcmp(known[i].name, text, length) == 0)
+			return spec_number_parse_bytes(
+				text + length + 1, "the limit", known[i].value, error);
+	}
+	return spec_error_set(error, SPEC_EUSAGE,
+		"'%s' is not pixels=N, channels=N, header=BYTES or memory=BYTES", text);
+}
+
+enum spec_status
+spec_settings_compression(const char *name, int *compression, struct spec_error *error)
+{
+	static const struct {
+		const char *name;
+		int number;
+	} known[] = {{"none", EXR_COMPRESSION_NONE}, {"rle", EXR_COMPRESSION_RLE},
+		{"zips", EXR_COMPRESSION_ZIPS}, {"zip", EXR_COMPRESSION_ZIP},
+		{"piz", EXR_COMPRESSION_PIZ}, {"pxr24", EXR_COMPRESSION_PXR24},
+		{"b44", EXR_COMPRESSION_B44}, {"b44a", EXR_COMPRESSION_B44A}};
+
+	for (size_t i = 0; i < sizeof known / sizeof known[0]; i++) {
+		if (strcmp(name, known[i].name) == 0) {
+			*compression = known[i].number;
+			return SPEC_OK;
+		}
+	}
+	return spec_error_set(error, SPEC_EUSAGE,
+		"unknown compression '%s' (none rle zips zip piz pxr24 b44 b44a)", name);
+}
+
+enum spec_status
+spec_settings_take(struct spec_settings *settings, const char *name, const char *value,
+	int *known, struct spec_error *error)
+{
+	enum spec_status status = SPEC_OK;
+	long long number;
+
+	*known = 1;
+	if (strcmp(name, "output") == 0) {
+		settings->output = value;
+	} else if (strcmp(name, "threads") == 0) {
+		status = spec_number_parse_whole(
+			value, 1, 256, "the number of threads", &number, error);
+		if (status == SPEC_OK)
+			settings->threads = (int)number;
+	} else if (strcmp(name, "part") == 0) {
+		settings->part = value;
+	} else if (strcmp(name, "compression") == 0) {
+		status = spec_settings_compression(value, &settings->compression, error);
+	} else if (strcmp(name, "half") == 0) {
+		settings->half = 1;
+	} else if (strcmp(name, "limit") == 0) {
+		status = take_limit(&settings->limits, value, error);
+	} else if (strcmp(name, "no-history") == 0) {
+		settings->history = 0;
+	} else if (strcmp(name, "progress") == 0) {
+		settings->progress = 1;
+	} else if (strcmp(name, "quiet") == 0) {
+		settings->quiet = 1;
+	} else {
+		*known = 0;
+	}
+	return status;
+}

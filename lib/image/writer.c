@@ -1,0 +1,628 @@
+#include "image/writer.h"
+
+#include <libdeflate.h>
+#include <openexr.h>
+#include <pthread.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/memory.h"
+#include "base/parallel.h"
+#include "image/codec.h"
+#include "image/exr.h"
+#include "image/half.h"
+
+#define MOST_CHANNELS 32767 /* exr_add_channel takes more, and fails later */
+#define SHORT_NAME 31       /* bytes; longer ones set the file's long-name flag */
+#define COPY_BYTES (1 << 20)
+#define DEFLATE_LEVEL 4 /* libdeflate; measured: 6 takes half as long again for 1 % */
+
+/* A chunk that is being put together. */
+struct slot {
+	int index; /* of the chunk, or -1: free */
+	int missing;
+	unsigned char *raw;
+};
+
+struct spec_writer {
+	exr_context_t context;
+	const struct spec_image *image;
+	struct spec_output *output;
+	struct spec_output scratch; /* where compressed chunks wait for a pipe */
+	int streaming, scratched, compression;
+	int chunk_lines;
+	size_t line_bytes;
+	size_t *offset;
+	int direct; /* planes can lie in the chunk itself */
+	/* The stream's chunk table, predicted: it comes before the chunks. */
+	uint64_t *table;
+	uint64_t table_at;
+	size_t chunks;
+	pthread_mutex_t lock; /* guards slot */
+	struct slot *slot;
+	size_t slots, slot_room;
+	struct spec_turnstile turnstile;
+};
+
+struct spec_packer {
+	struct spec_writer *writer;
+	exr_encode_pipeline_t pipeline;
+	int started;
+	struct libdeflate_compressor *compressor;
+	float **plane;
+	float *row; /* where planes do not lie in the chunk */
+};
+
+static int
+lines_in_chunk(const struct spec_writer *writer, int index)
+{
+	long long left = (long long)spec_window_height(&writer->image->data) -
+			 (long long)index * writer->chunk_lines;
+
+	return left < writer->chunk_lines ? (int)left : writer->chunk_lines;
+}
+
+/*
+ * An uncompressed chunk has a known size: y and size, four bytes each, then the
+ * lines. So the table can go out before the chunks that it points to.
+ */
+static enum spec_status
+write_predicted_table(struct spec_writer *writer, struct spec_error *error)
+{
+	uint64_t at = writer->output->position + 8 * writer->chunks;
+
+	writer->table =
+		spec_memory_new(writer->chunks, sizeof *writer->table, "chunks", error);
+	if (!writer->table)
+		return SPEC_ENOMEM;
+	writer->table_at = writer->output->position;
+	for (size_t i = 0; i < writer->chunks; i++) {
+		writer->table[i] = at;
+		at += 8 + writer->line_bytes * lines_in_chunk(writer, (int)i);
+	}
+	return spec_output_write(writer->output, writer->table, 8 * writer->chunks, error);
+}
+
+static enum spec_status
+write_stream(struct spec_writer *writer, const void *bytes, size_t size, uint64_t offset,
+	struct spec_error *error)
+{
+	struct spec_output *output = writer->output;
+	enum spec_status status = SPEC_OK;
+
+	if (writer->table && offset == writer->table_at) {
+		/* The table at the end: it must be the one that was predicted. */
+		if (size == 8 * writer->chunks && memcmp(bytes, writer->table, size) == 0)
+			return SPEC_OK;
+		return spec_error_set(error, SPEC_EFORMAT,
+			"%s: the chunks are not where they were announced", output->path);
+	}
+	if (offset > (uint64_t)output->position && !writer->table)
+		status = write_predicted_table(writer, error);
+	if (status == SPEC_OK && offset != (uint64_t)output->position)
+		status = spec_error_set(error, SPEC_EFORMAT,
+			"%s: cannot go back in a stream", output->path);
+	return status == SPEC_OK ? spec_output_write(output, bytes, size, error) : status;
+}
+
+static int64_t
+write_bytes(exr_const_context_t context, void *data, const void *bytes, uint64_t size,
+	uint64_t offset, exr_stream_error_func_ptr_t report)
+{
+	struct spec_writer *writer = data;
+	struct spec_error error;
+	enum spec_status status;
+
+	(void)context;
+	(void)report;
+	if (writer->streaming)
+		status = write_stream(writer, bytes, size, offset, &error);
+	else
+		status = spec_output_write_at(
+			writer->scratched ? &writer->scratch : writer->output, bytes, size,
+			(int64_t)offset, &error);
+	if (status == SPEC_OK)
+		return (int64_t)size;
+	spec_exr_note(&error);
+	return -1;
+}
+
+static enum spec_status
+failed(const struct spec_writer *writer, exr_result_t result, struct spec_error *error)
+{
+	return spec_exr_error(result, writer->output->path, error);
+}
+
+static int
+has_long_name(const struct spec_image *image)
+{
+	for (size_t i = 0; i < image->channels; i++) {
+		if (strlen(image->channel[i].name) > SHORT_NAME)
+			return 1;
+	}
+	for (size_t i = 0; i < image->attributes; i++) {
+		if (strlen(image->attribute[i].name) > SHORT_NAME ||
+			strlen(image->attribute[i].type) > SHORT_NAME)
+			return 1;
+	}
+	return 0;
+}
+
+static exr_attr_box2i_t
+box_of(const struct spec_window *window)
+{
+	exr_attr_box2i_t box;
+
+	box.min.x = window->x0;
+	box.min.y = window->y0;
+	box.max.x = window->x1 - 1;
+	box.max.y = window->y1 - 1;
+	return box;
+}
+
+static exr_result_t
+set_windows(struct spec_writer *writer, int part)
+{
+	const struct spec_image *image = writer->image;
+	exr_attr_box2i_t data = box_of(&image->data), display = box_of(&image->display);
+	exr_attr_v2f_t centre;
+
+	centre.x = image->screen_window_x;
+	centre.y = image->screen_window_y;
+	return exr_initialize_required_attr(writer->context, part, &display, &data,
+		image->pixel_aspect_ratio, &centre, image->screen_window_width,
+		EXR_LINEORDER_INCREASING_Y, (exr_compression_t)writer->compression);
+}
+
+static enum spec_status
+write_header(struct spec_writer *writer, struct spec_error *error)
+{
+	const struct spec_image *image = writer->image;
+	exr_context_initializer_t setup = EXR_DEFAULT_CONTEXT_INITIALIZER;
+	enum spec_status status;
+	exr_result_t result;
+	int part, lines;
+
+	setup.error_handler_fn = spec_exr_report;
+	setup.user_data = writer;
+	setup.write_fn = write_bytes;
+	spec_exr_forget();
+	result = exr_start_write(
+		&writer->context, writer->output->path, EXR_WRITE_FILE_DIRECTLY, &setup);
+	if (result == EXR_ERR_SUCCESS && has_long_name(image))
+		result = exr_set_longname_support(writer->context, 1);
+	if (result == EXR_ERR_SUCCESS)
+		result = exr_add_part(
+			writer->context, image->part, EXR_STORAGE_SCANLINE, &part);
+	if (result == EXR_ERR_SUCCESS)
+		result = set_windows(writer, part);
+	for (size_t i = 0; i < image->channels && result == EXR_ERR_SUCCESS; i++)
+		result = exr_add_channel(writer->context, part, image->channel[i].name,
+			(exr_pixel_type_t)image->channel[i].sample,
+			image->channel[i].linear ? EXR_PERCEPTUALLY_LINEAR
+						 : EXR_PERCEPTUALLY_LOGARITHMIC,
+			1, 1);
+	if (result != EXR_ERR_SUCCESS)
+		return failed(writer, result, error);
+	status = spec_exr_set_attributes(
+		writer->context, part, image, writer->output->path, error);
+	if (status != SPEC_OK)
+		return status;
+	result = exr_write_header(writer->context);
+	if (result == EXR_ERR_SUCCESS)
+		result = exr_get_scanlines_per_chunk(writer->context, part, &lines);
+	if (result != EXR_ERR_SUCCESS)
+		return failed(writer, result, error);
+	writer->chunk_lines = lines;
+	writer->chunks = (spec_window_height(&image->data) + lines - 1) / lines;
+	return SPEC_OK;
+}
+
+static enum spec_status
+measure_lines(struct spec_writer *writer, struct spec_error *error)
+{
+	const struct spec_image *image = writer->image;
+	size_t width = spec_window_width(&image->data);
+
+	writer->offset =
+		spec_memory_new(image->channels, sizeof *writer->offset, "channels", error);
+	if (!writer->offset)
+		return SPEC_ENOMEM;
+	writer->direct = 1;
+	for (size_t i = 0; i < image->channels; i++) {
+		size_t bytes = spec_exr_sample_bytes(image->channel[i].sample);
+
+		if (i > 0 &&
+			strcmp(image->channel[i - 1].name, image->channel[i].name) >= 0)
+			return spec_error_set(
+				error, SPEC_EUSAGE, "channels are not in order");
+		writer->offset[i] = writer->line_bytes;
+		writer->line_bytes += width * bytes;
+		writer->direct &= bytes == sizeof(float);
+	}
+	return SPEC_OK;
+}
+
+static enum spec_status
+settle_output(struct spec_writer *writer, int compression, struct spec_error *error)
+{
+	struct spec_output *output = writer->output;
+
+	if (output->terminal)
+		return spec_error_set(error, SPEC_EUSAGE,
+			"refusing to write an image to a terminal; use -o FILE or a pipe");
+	if (writer->image->channels > MOST_CHANNELS)
+		return spec_error_set(error, SPEC_ERANGE,
+			"%s: %zu channels are more than %d", output->path,
+			writer->image->channels, MOST_CHANNELS);
+	if (writer->image->channels == 0)
+		return spec_error_set(
+			error, SPEC_EUSAGE, "%s: the image has no channel", output->path);
+	if (compression < 0)
+		compression = output->seekable ? EXR_COMPRESSION_ZIP : EXR_COMPRESSION_NONE;
+	writer->compression = compression;
+	writer->streaming = !output->seekable && compression == EXR_COMPRESSION_NONE;
+	if (!output->seekable && !writer->streaming) {
+		writer->scratch.path = output->path;
+		writer->scratch.fd = spec_output_scratch(error);
+		if (writer->scratch.fd < 0)
+			return SPEC_EIO;
+		writer->scratched = 1;
+	}
+	return SPEC_OK;
+}
+
+enum spec_status
+spec_writer_open(struct spec_writer **result, const struct spec_image *image,
+	struct spec_output *output, int compression, struct spec_error *error)
+{
+	struct spec_writer *writer = spec_memory_new(1, sizeof *writer, "writers", error);
+	enum spec_status status;
+
+	*result = NULL;
+	if (!writer)
+		return SPEC_ENOMEM;
+	writer->image = image;
+	writer->output = output;
+	pthread_mutex_init(&writer->lock, NULL);
+	spec_turnstile_init(&writer->turnstile);
+	status = settle_output(writer, compression, error);
+	if (status == SPEC_OK)
+		status = measure_lines(writer, error);
+	if (status == SPEC_OK)
+		status = write_header(writer, error);
+	if (status != SPEC_OK) {
+		spec_writer_close(writer);
+		return status;
+	}
+	*result = writer;
+	return SPEC_OK;
+}
+
+static enum spec_status
+copy_scratch(struct spec_writer *writer, struct spec_error *error)
+{
+	char *buffer = spec_memory_new(COPY_BYTES, 1, "bytes", error);
+	enum spec_status status = buffer ? SPEC_OK : SPEC_ENOMEM;
+	int64_t offset = 0;
+	ssize_t got = 1;
+
+	while (status == SPEC_OK && got > 0) {
+		got = pread(writer->scratch.fd, buffer, COPY_BYTES, offset);
+		if (got < 0)
+			status = spec_error_set(
+				error, SPEC_EIO, "unable to read back a temporary file");
+		else
+			status = spec_output_write(writer->output, buffer, got, error);
+		offset += got;
+	}
+	free(buffer);
+	return status;
+}
+
+enum spec_status
+spec_writer_finish(struct spec_writer *writer, struct spec_error *error)
+{
+	enum spec_status status = spec_turnstile_status(&writer->turnstile, error);
+
+	if (status != SPEC_OK)
+		return status;
+	/* The library itself would call a file with lines missing a success. */
+	if (writer->turnstile.next != (long long)writer->chunks)
+		return spec_error_set(error, SPEC_EUSAGE,
+			"%s: %lld of %zu chunks were written", writer->output->path,
+			writer->turnstile.next, writer->chunks);
+	/* The table went out with the last chunk; packers still need the context. */
+	return writer->scratched ? copy_scratch(writer, error) : SPEC_OK;
+}
+
+void
+spec_writer_close(struct spec_writer *writer)
+{
+	if (!writer)
+		return;
+	if (writer->context)
+		exr_finish(&writer->context);
+	if (writer->scratched)
+		close(writer->scratch.fd);
+	for (size_t i = 0; i < writer->slots; i++)
+		free(writer->slot[i].raw);
+	free(writer->slot);
+	free(writer->table);
+	free(writer->offset);
+	pthread_mutex_destroy(&writer->lock);
+	spec_turnstile_destroy(&writer->turnstile);
+	free(writer);
+}
+
+int
+spec_writer_chunk_lines(const struct spec_writer *writer)
+{
+	return writer->chunk_lines;
+}
+
+void
+spec_writer_stop(struct spec_writer *writer, const struct spec_error *error)
+{
+	spec_turnstile_stop(&writer->turnstile, error);
+}
+
+enum spec_status
+spec_packer_open(
+	struct spec_packer **result, struct spec_writer *writer, struct spec_error *error)
+{
+	struct spec_packer *packer = spec_memory_new(1, sizeof *packer, "packers", error);
+	size_t channels = writer->image->channels;
+	size_t width = spec_window_width(&writer->image->data);
+
+	*result = packer;
+	if (!packer)
+		return SPEC_ENOMEM;
+	packer->writer = writer;
+	packer->plane = spec_memory_new(channels, sizeof *packer->plane, "channels", error);
+	packer->compressor = libdeflate_alloc_compressor(DEFLATE_LEVEL);
+	if (!writer->direct)
+		packer->row = spec_memory_aligned(
+			width * channels, sizeof(float), "samples", error);
+	if (!packer->plane || !packer->compressor || (!writer->direct && !packer->row)) {
+		spec_packer_close(packer);
+		*result = NULL;
+		return spec_error_set(error, SPEC_ENOMEM, "out of memory for a packer");
+	}
+	for (size_t i = 0; i < channels && packer->row; i++)
+		packer->plane[i] = packer->row + i * width;
+	return SPEC_OK;
+}
+
+void
+spec_packer_close(struct spec_packer *packer)
+{
+	if (!packer)
+		return;
+	if (packer->started) {
+		packer->pipeline.packed_buffer = NULL; /* a slot's */
+		packer->pipeline.packed_alloc_size = 0;
+		if (packer->pipeline.compressed_alloc_size == 0)
+			packer->pipeline.compressed_buffer = NULL;
+		exr_encoding_destroy(packer->writer->context, &packer->pipeline);
+	}
+	if (packer->compressor)
+		libdeflate_free_compressor(packer->compressor);
+	free(packer->plane);
+	free(packer->row);
+	free(packer);
+}
+
+/* The slot of a chunk, made where there is none yet; only with the lock held. */
+static struct slot *
+find_slot(struct spec_writer *writer, int index, struct spec_error *error)
+{
+	struct slot *unused = NULL;
+	void *list = writer->slot;
+
+	for (size_t i = 0; i < writer->slots; i++) {
+		if (writer->slot[i].index == index)
+			return &writer->slot[i];
+		if (writer->slot[i].index < 0)
+			unused = &writer->slot[i];
+	}
+	if (!unused) {
+		if (spec_memory_grow(&list, &writer->slot_room, writer->slots + 1,
+			    sizeof *writer->slot, "chunks", error) != SPEC_OK)
+			return NULL;
+		writer->slot = list;
+		unused = &writer->slot[writer->slots];
+		unused->index = -1;
+		unused->raw = spec_memory_aligned(
+			writer->line_bytes, writer->chunk_lines, "bytes of pixels", error);
+		if (!unused->raw)
+			return NULL;
+		writer->slots++;
+	}
+	unused->index = index;
+	unused->missing = lines_in_chunk(writer, index);
+	return unused;
+}
+
+/* Where line y lies in its chunk, or null with the error set. */
+static unsigned char *
+find_line(struct spec_writer *writer, int y, struct spec_error *error)
+{
+	int line = y - writer->image->data.y0;
+	struct slot *slot;
+	unsigned char *raw = NULL;
+
+	pthread_mutex_lock(&writer->lock);
+	slot = find_slot(writer, line / writer->chunk_lines, error);
+	if (slot)
+		raw = slot->raw;
+	pthread_mutex_unlock(&writer->lock);
+	return raw ? raw + line % writer->chunk_lines * writer->line_bytes : NULL;
+}
+
+enum spec_status
+spec_packer_begin(
+	struct spec_packer *packer, int y, float *const **plane, struct spec_error *error)
+{
+	struct spec_writer *writer = packer->writer;
+	unsigned char *raw;
+
+	*plane = packer->plane;
+	if (!writer->direct)
+		return SPEC_OK;
+	raw = find_line(writer, y, error);
+	if (!raw)
+		return SPEC_ENOMEM;
+	for (size_t i = 0; i < writer->image->channels; i++)
+		packer->plane[i] = (float *)(void *)(raw + writer->offset[i]);
+	return SPEC_OK;
+}
+
+/* The lines lie packed already; the pipeline only wants to be told so. */
+static exr_result_t
+pack_nothing(exr_encode_pipeline_t *pipeline)
+{
+	pipeline->packed_bytes = pipeline->packed_alloc_size;
+	return EXR_ERR_SUCCESS;
+}
+
+static exr_result_t
+start_pipeline(struct spec_packer *packer, const exr_chunk_info_t *info)
+{
+	exr_const_context_t context = packer->writer->context;
+	exr_encode_pipeline_t *pipeline = &packer->pipeline;
+	int compression = packer->writer->compression;
+	exr_result_t result;
+
+	if (packer->started) {
+		result = exr_encoding_update(context, 0, info, pipeline);
+	} else {
+		result = exr_encoding_initialize(context, 0, info, pipeline);
+		if (result != EXR_ERR_SUCCESS)
+			return result;
+		packer->started = 1;
+		result = exr_encoding_choose_default_routines(context, 0, pipeline);
+		pipeline->convert_and_pack_fn = pack_nothing;
+		pipeline->yield_until_ready_fn = NULL;
+		pipeline->write_fn = NULL;
+		if (compression == EXR_COMPRESSION_ZIP ||
+			compression == EXR_COMPRESSION_ZIPS) {
+			pipeline->compress_fn = spec_codec_deflate;
+			pipeline->encoding_user_data = packer->compressor;
+		}
+	}
+	for (int i = 0; i < pipeline->channel_count; i++) {
+		exr_coding_channel_info_t *channel = &pipeline->channels[i];
+
+		channel->user_data_type = channel->data_type;
+		channel->user_bytes_per_element = channel->bytes_per_element;
+		channel->encode_from_ptr =
+			(const uint8_t *)""; /* not read: it must not be null */
+	}
+	return result;
+}
+
+/* Encodes a chunk and leaves its bytes in the pipeline. */
+static exr_result_t
+encode(struct spec_packer *packer, int index, unsigned char *raw)
+{
+	struct spec_writer *writer = packer->writer;
+	exr_encode_pipeline_t *pipeline = &packer->pipeline;
+	int y = writer->image->data.y0 + index * writer->chunk_lines;
+	size_t size = writer->line_bytes * lines_in_chunk(writer, index);
+	exr_chunk_info_t info;
+	exr_result_t result;
+
+	if (writer->compression == EXR_COMPRESSION_NONE) {
+		pipeline->compressed_buffer = raw;
+		pipeline->compressed_bytes = size;
+		return EXR_ERR_SUCCESS;
+	}
+	result = exr_write_scanline_chunk_info(writer->context, 0, y, &info);
+	if (result == EXR_ERR_SUCCESS)
+		result = start_pipeline(packer, &info);
+	if (result != EXR_ERR_SUCCESS)
+		return result;
+	if (info.unpacked_size != size)
+		return EXR_ERR_INVALID_ARGUMENT; /* the library would free raw to make room */
+	pipeline->packed_buffer = raw;
+	pipeline->packed_alloc_size = size;
+	result = exr_encoding_run(writer->context, 0, pipeline);
+	pipeline->packed_buffer = NULL;
+	pipeline->packed_alloc_size = 0;
+	return result;
+}
+
+static enum spec_status
+write_chunk(struct spec_packer *packer, int index, struct spec_error *error)
+{
+	struct spec_writer *writer = packer->writer;
+	int y = writer->image->data.y0 + index * writer->chunk_lines;
+	exr_result_t result;
+
+	if (!spec_turnstile_enter(&writer->turnstile, index))
+		return spec_turnstile_status(&writer->turnstile, error);
+	spec_exr_forget();
+	result = exr_write_scanline_chunk(writer->context, 0, y,
+		packer->pipeline.compressed_buffer, packer->pipeline.compressed_bytes);
+	if (result != EXR_ERR_SUCCESS || spec_exr_has_note()) {
+		struct spec_error own;
+		enum spec_status status = failed(writer, result, &own);
+
+		spec_turnstile_stop(&writer->turnstile, &own);
+		if (error)
+			*error = own;
+		return status;
+	}
+	spec_turnstile_leave(&writer->turnstile);
+	return SPEC_OK;
+}
+
+static void
+store_line(struct spec_packer *packer, unsigned char *raw)
+{
+	const struct spec_writer *writer = packer->writer;
+	size_t width = spec_window_width(&writer->image->data);
+
+	for (size_t i = 0; i < writer->image->channels; i++) {
+		if (writer->image->channel[i].sample == SPEC_SAMPLE_HALF)
+			spec_half_from_float(
+				raw + writer->offset[i], packer->plane[i], width);
+		else
+			memcpy(raw + writer->offset[i], packer->plane[i],
+				width * sizeof(float));
+	}
+}
+
+enum spec_status
+spec_packer_end(struct spec_packer *packer, int y, struct spec_error *error)
+{
+	struct spec_writer *writer = packer->writer;
+	int index = (y - writer->image->data.y0) / writer->chunk_lines;
+	unsigned char *raw = writer->direct ? NULL : find_line(writer, y, error);
+	enum spec_status status;
+	exr_result_t result;
+	struct slot *slot;
+	int missing;
+
+	if (raw)
+		store_line(packer, raw);
+	else if (!writer->direct)
+		return SPEC_ENOMEM;
+	pthread_mutex_lock(&writer->lock);
+	slot = find_slot(writer, index, error);
+	missing = --slot->missing; /* it exists: its line was begun */
+	raw = slot->raw;
+	pthread_mutex_unlock(&writer->lock);
+	if (missing > 0)
+		return SPEC_OK;
+	spec_exr_forget();
+	result = encode(packer, index, raw);
+	status = result == EXR_ERR_SUCCESS ? write_chunk(packer, index, error)
+					   : failed(writer, result, error);
+	pthread_mutex_lock(&writer->lock);
+	find_slot(writer, index, NULL)->index = -1;
+	pthread_mutex_unlock(&writer->lock);
+	return status;
+}

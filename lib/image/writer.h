@@ -1,0 +1,60 @@
+/*
+ * Writing a spectral EXR image: scanlines, one part, increasing line order.
+ * Lines may come from several workers in any order near each other; chunks are
+ * encoded side by side and written in order. To a pipe, an uncompressed image
+ * streams; a compressed one is written when it is complete.
+ */
+#ifndef SPEC_IMAGE_WRITER_H
+#define SPEC_IMAGE_WRITER_H
+
+#include "base/error.h"
+#include "base/output.h"
+#include "image/image.h"
+#include "image/settings.h"
+
+struct spec_writer;
+
+/*
+ * Writes the header. The image must be indexed and live as long as the writer;
+ * its channels go out under their names, as the samples they say. The output
+ * must live as long, too; committing or abandoning it stays the caller's.
+ * compression: OpenEXR's number, or -1: none to a stream, zip to a file.
+ * Errors: the output is a terminal, more channels than OpenEXR can write.
+ */
+enum spec_status spec_writer_open(struct spec_writer **writer,
+	const struct spec_image *image, struct spec_output *output, int compression,
+	struct spec_error *error);
+
+/* Ends the file. Error: lines are missing. */
+enum spec_status spec_writer_finish(struct spec_writer *writer, struct spec_error *error);
+void spec_writer_close(struct spec_writer *writer);
+
+/* Lines that are encoded together. */
+int spec_writer_chunk_lines(const struct spec_writer *writer);
+
+/* Stops workers that wait for their turn to write. */
+void spec_writer_stop(struct spec_writer *writer, const struct spec_error *error);
+
+/* One worker's place to write lines from. */
+struct spec_packer;
+
+enum spec_status spec_packer_open(
+	struct spec_packer **packer, struct spec_writer *writer, struct spec_error *error);
+/* Before the writer is closed. */
+void spec_packer_close(struct spec_packer *packer);
+
+/*
+ * Where line y's samples go: one plane per channel, floats (UINT: 32 bits). The
+ * planes hold until spec_packer_end for the same line.
+ */
+enum spec_status spec_packer_begin(
+	struct spec_packer *packer, int y, float *const **plane, struct spec_error *error);
+
+/*
+ * The line is complete. Where it completes its chunk, the chunk is encoded, and
+ * the call returns when it has been written, after all before it.
+ */
+enum spec_status spec_packer_end(
+	struct spec_packer *packer, int y, struct spec_error *error);
+
+#endif
