@@ -1,0 +1,417 @@
+#include "compare/images.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "colour/observer.h"
+#include "colour/space.h"
+#include "image/rgb.h"
+#include "image/stream.h"
+
+#define SAME_NM 1e-3 /* names of six and of three decimals are the same band */
+
+/* The channels that are measured: A's and B's, pair by pair. */
+struct pairs {
+	size_t count;
+	size_t *a, *b;
+};
+
+struct comparison {
+	struct spec_images *result;
+	const struct spec_image *a, *b;
+	struct pairs bands, others;
+	struct spec_measure_setup spectral_setup, others_setup;
+	double *weight_xyz;
+};
+
+/* What a line's two measures are, as the stream carries them. */
+struct row {
+	struct spec_measure spectral, others;
+};
+
+static void __attribute__((format(printf, 2, 3)))
+say(struct spec_images *result, const char *format, ...)
+{
+	size_t length = strlen(result->structure);
+	va_list arguments;
+
+	va_start(arguments, format);
+	vsnprintf(result->structure + length, sizeof result->structure - length, format,
+		arguments);
+	va_end(arguments);
+}
+
+static void
+compare_windows(struct spec_images *result, const char *what, const struct spec_window *a,
+	const struct spec_window *b)
+{
+	if (memcmp(a, b, sizeof *a) != 0)
+		say(result, "%s windows differ: %d,%d,%d,%d and %d,%d,%d,%d\n", what, a->x0,
+			a->y0, a->x1, a->y1, b->x0, b->y0, b->x1, b->y1);
+}
+
+static enum spec_status
+compare_quantities(struct spec_images *result, const struct spec_image *a,
+	const struct spec_image *b, struct spec_error *error)
+{
+	char *one = spec_image_quantity(a, error), *two = spec_image_quantity(b, error);
+	enum spec_status status = one && two ? SPEC_OK : SPEC_ENOMEM;
+
+	if (status == SPEC_OK && (a->role != b->role || strcmp(one, two) != 0))
+		say(result, "quantities differ: '%s' and '%s'\n", one, two);
+	free(one);
+	free(two);
+	return status;
+}
+
+static void
+compare_bands(
+	struct spec_images *result, const struct spec_image *a, const struct spec_image *b)
+{
+	size_t i = 0;
+
+	if (a->role != b->role)
+		return;
+	if (a->stokes != b->stokes)
+		say(result, "Stokes components differ: %d and %d\n", a->stokes, b->stokes);
+	while (i < a->bands && i < b->bands &&
+		fabs(a->wavelength_nm[i] - b->wavelength_nm[i]) <= SAME_NM)
+		i++;
+	if (i < a->bands && (i >= b->bands || a->wavelength_nm[i] < b->wavelength_nm[i]))
+		say(result,
+			"bands differ: %zu and %zu, the first has %g nm, the second has "
+			"not\n",
+			a->bands, b->bands, a->wavelength_nm[i]);
+	else if (i < b->bands)
+		say(result,
+			"bands differ: %zu and %zu, the second has %g nm, the first has "
+			"not\n",
+			a->bands, b->bands, b->wavelength_nm[i]);
+	else if ((a->edges_nm != NULL) != (b->edges_nm != NULL))
+		say(result, "bands differ: one has bins, the other has point samples\n");
+	for (i = 0; a->edges_nm && b->edges_nm && a->bands == b->bands && i <= a->bands;
+		i++) {
+		if (fabs(a->edges_nm[i] - b->edges_nm[i]) > SAME_NM) {
+			say(result, "bins differ: an edge at %g nm and at %g nm\n",
+				a->edges_nm[i], b->edges_nm[i]);
+			break;
+		}
+	}
+}
+
+static size_t
+find_channel(const struct spec_image *image, const char *name)
+{
+	for (size_t i = 0; i < image->channels; i++) {
+		if (strcmp(image->channel[i].name, name) == 0)
+			return i;
+	}
+	return image->channels;
+}
+
+/* A band's whole numbers come out of the decoder as floats, others as they are. */
+static int
+is_whole(const struct spec_channel *channel)
+{
+	return channel->sample == SPEC_SAMPLE_UINT && channel->role == SPEC_ROLE_OTHER;
+}
+
+/* Whole numbers are no bands, even where an image has no bands and its channels stand in. */
+static int
+is_other(const struct spec_image *image, size_t channel)
+{
+	const struct spec_channel *it = &image->channel[channel];
+
+	if (image->bands == 0)
+		return it->sample == SPEC_SAMPLE_UINT;
+	return it->role == SPEC_ROLE_OTHER || it->role == SPEC_ROLE_BISPECTRAL;
+}
+
+/* Pairs by name the channels that are no bands (others 1), or those that stand in for bands. */
+static enum spec_status
+pair_channels(struct spec_images *result, const struct spec_image *a,
+	const struct spec_image *b, int others, struct pairs *pairs,
+	struct spec_error *error)
+{
+	pairs->a = spec_memory_new(a->channels, sizeof *pairs->a, "channels", error);
+	pairs->b = spec_memory_new(a->channels, sizeof *pairs->b, "channels", error);
+	if (!pairs->a || !pairs->b)
+		return SPEC_ENOMEM;
+	for (size_t i = 0; i < a->channels; i++) {
+		size_t partner = find_channel(b, a->channel[i].name);
+
+		if (is_other(a, i) != others)
+			continue;
+		if (partner == b->channels) {
+			say(result, "channel '%s' is only in the first\n",
+				a->channel[i].name);
+			continue;
+		}
+		if ((a->channel[i].sample == SPEC_SAMPLE_UINT) !=
+			(b->channel[partner].sample == SPEC_SAMPLE_UINT))
+			say(result, "channel '%s' holds whole numbers on one side\n",
+				a->channel[i].name);
+		pairs->a[pairs->count] = i;
+		pairs->b[pairs->count++] = partner;
+	}
+	for (size_t i = 0; i < b->channels; i++) {
+		if (is_other(b, i) == others &&
+			find_channel(a, b->channel[i].name) == a->channels)
+			say(result, "channel '%s' is only in the second\n",
+				b->channel[i].name);
+	}
+	return SPEC_OK;
+}
+
+static enum spec_status
+pair_bands(const struct spec_image *a, const struct spec_image *b, struct pairs *pairs,
+	struct spec_error *error)
+{
+	size_t count = a->bands * (size_t)a->stokes;
+
+	pairs->a = spec_memory_new(count, sizeof *pairs->a, "bands", error);
+	pairs->b = spec_memory_new(count, sizeof *pairs->b, "bands", error);
+	if (!pairs->a || !pairs->b)
+		return SPEC_ENOMEM;
+	pairs->count = count;
+	memcpy(pairs->a, a->band_channel, count * sizeof *pairs->a);
+	memcpy(pairs->b, b->band_channel, count * sizeof *pairs->b);
+	return SPEC_OK;
+}
+
+static enum spec_status
+compare_structure(struct comparison *comparison, struct spec_error *error)
+{
+	struct spec_images *result = comparison->result;
+	const struct spec_image *a = comparison->a, *b = comparison->b;
+	enum spec_status status;
+
+	compare_windows(result, "data", &a->data, &b->data);
+	compare_windows(result, "display", &a->display, &b->display);
+	compare_bands(result, a, b);
+	status = compare_quantities(result, a, b, error);
+	if (status != SPEC_OK)
+		return status;
+	result->comparable = strncmp(result->structure, "data windows", 12) != 0 &&
+			     !strstr(result->structure, "bands differ") &&
+			     a->role == b->role && a->stokes == b->stokes;
+	status = pair_channels(result, a, b, 1, &comparison->others, error);
+	if (status == SPEC_OK && a->bands == 0 && b->bands == 0)
+		status = pair_channels(result, a, b, 0, &comparison->bands, error);
+	else if (status == SPEC_OK && result->comparable)
+		status = pair_bands(a, b, &comparison->bands, error);
+	return status;
+}
+
+/* XYZ weights of S0's bands or of T's; the other Stokes components have none. */
+static enum spec_status
+plan_colour(struct comparison *comparison, const struct spec_images_setup *setup,
+	struct spec_error *error)
+{
+	const struct spec_image *a = comparison->a;
+	struct spec_bands bands = {a->bands, a->wavelength_nm, a->edges_nm, 0};
+	const struct spec_curve *light =
+		a->role == SPEC_ROLE_REFLECTIVE ? setup->illuminant : NULL;
+	size_t count = comparison->bands.count;
+	double outside,
+		*weight = spec_memory_new(3 * a->bands, sizeof *weight, "bands", error);
+	char *quantity = spec_image_quantity(a, error);
+	enum spec_status status = weight && quantity ? SPEC_OK : SPEC_ENOMEM;
+
+	comparison->weight_xyz = spec_memory_new(3 * count, sizeof *weight, "bands", error);
+	if (!comparison->weight_xyz)
+		status = SPEC_ENOMEM;
+	bands.per_band = quantity && strstr(quantity, "per band") != NULL;
+	free(quantity);
+	if (status == SPEC_OK)
+		status = spec_observer_weights(
+			setup->observer, light, &bands, weight, &outside, error);
+	for (size_t i = 0; i < 3 * a->bands && status == SPEC_OK; i++)
+		comparison->weight_xyz[i / a->bands * count + i % a->bands] =
+			weight[i] * exp2(setup->exposure);
+	free(weight);
+	if (status != SPEC_OK)
+		return status;
+	comparison->spectral_setup.weight_xyz = comparison->weight_xyz;
+	comparison->result->coloured = 1;
+	if (light)
+		return spec_observer_white(setup->observer, light,
+			comparison->spectral_setup.white_xyz, error);
+	spec_white_xyz(
+		spec_white_find("D65", NULL)->xy, comparison->spectral_setup.white_xyz);
+	return SPEC_OK;
+}
+
+static void
+gather(const struct spec_stream_worker *worker, const struct pairs *pairs,
+	const struct comparison *comparison, int line, const float **plane)
+{
+	for (size_t i = 0; i < pairs->count; i++) {
+		plane[i] = spec_decoder_row(
+			worker->decoder[0], comparison->a->data.y0 + line, pairs->a[i]);
+		plane[pairs->count + i] = spec_decoder_row(
+			worker->decoder[1], comparison->b->data.y0 + line, pairs->b[i]);
+	}
+}
+
+/*
+ * Whole numbers become floats to be measured. Two that differ but round to one
+ * float are kept apart.
+ */
+static void
+number_rows(const float *two[2], size_t width, float *number)
+{
+	for (size_t x = 0; x < width; x++) {
+		uint32_t a, b;
+
+		memcpy(&a, two[0] + x, sizeof a);
+		memcpy(&b, two[1] + x, sizeof b);
+		number[x] = (float)a;
+		number[width + x] = (float)b;
+		if (a != b && number[x] == number[width + x])
+			number[width + x] = nextafterf(number[x], a < b ? INFINITY : 0);
+	}
+	two[0] = number;
+	two[1] = number + width;
+}
+
+static void
+measure_others(const struct comparison *comparison, const struct spec_stream_worker *worker,
+	int line, const float **plane, float *number, struct spec_measure *row)
+{
+	const struct pairs *pairs = &comparison->others;
+	size_t width = spec_window_width(&comparison->a->data);
+
+	gather(worker, pairs, comparison, line, plane);
+	spec_measure_clear(row);
+	for (size_t i = 0; i < pairs->count; i++) {
+		const float *two[2] = {plane[i], plane[pairs->count + i]};
+		struct spec_measure one;
+
+		if (is_whole(&comparison->a->channel[pairs->a[i]]))
+			number_rows(two, width, number);
+		spec_measure_row(
+			&comparison->others_setup, &two[0], &two[1], width, line, &one);
+		one.difference.place.band = one.nonfinite_first.band = i;
+		spec_measure_add(row, &one);
+	}
+}
+
+static enum spec_status
+kernel(void *state, struct spec_stream_worker *worker, int line, struct spec_error *error)
+{
+	const struct comparison *comparison = state;
+	size_t width = spec_window_width(&comparison->a->data);
+	size_t planes = 2 * (comparison->bands.count + comparison->others.count);
+	const float **plane = worker->scratch;
+	float *number = (float *)(void *)(plane + planes);
+	struct row *row = (struct row *)(void *)worker->payload;
+
+	(void)error;
+	gather(worker, &comparison->bands, comparison, line, plane);
+	spec_measure_clear(&row->spectral);
+	if (comparison->bands.count > 0)
+		spec_measure_row(&comparison->spectral_setup, plane,
+			plane + comparison->bands.count, width, line, &row->spectral);
+	measure_others(comparison, worker, line, plane, number, &row->others);
+	return SPEC_OK;
+}
+
+static enum spec_status
+deliver(void *state, const unsigned char *payload, int line, int count,
+	struct spec_error *error)
+{
+	struct comparison *comparison = state;
+	const struct row *row = (const struct row *)(const void *)payload;
+
+	(void)line;
+	(void)error;
+	for (int i = 0; i < count; i++) {
+		spec_measure_add(&comparison->result->spectral, &row[i].spectral);
+		spec_measure_add(&comparison->result->others, &row[i].others);
+	}
+	return SPEC_OK;
+}
+
+/* From the place among the pairs to the channel of A. */
+static void
+name_channels(struct spec_measure *measure, const struct pairs *pairs)
+{
+	if (pairs->count == 0)
+		return;
+	measure->difference.place.band = pairs->a[measure->difference.place.band];
+	measure->nonfinite_first.band = pairs->a[measure->nonfinite_first.band];
+}
+
+static enum spec_status
+measure(struct comparison *comparison, struct spec_reader *a, struct spec_reader *b,
+	const struct spec_settings *settings, struct spec_error *error)
+{
+	size_t planes = 2 * (comparison->bands.count + comparison->others.count);
+	struct spec_stream stream = {
+		.reader = {a, b},
+		.readers = 2,
+		.first_line = comparison->a->data.y0,
+		.lines = (int)spec_window_height(&comparison->a->data),
+		.lines_in = 1,
+		.payload_bytes = sizeof(struct row),
+		.scratch_bytes =
+			planes * sizeof(float *) +
+			2 * spec_window_width(&comparison->a->data) * sizeof(float),
+		.state = comparison,
+		.kernel = kernel,
+		.deliver = deliver,
+	};
+
+	enum spec_status status = spec_stream_run(&stream, settings, error);
+
+	comparison->result->bands = comparison->bands.count;
+	comparison->result->other_count = comparison->others.count;
+	name_channels(&comparison->result->spectral, &comparison->bands);
+	name_channels(&comparison->result->others, &comparison->others);
+	return status;
+}
+
+static void
+free_pairs(struct pairs *pairs)
+{
+	free(pairs->a);
+	free(pairs->b);
+}
+
+enum spec_status
+spec_images_compare(struct spec_images *result, struct spec_reader *a,
+	struct spec_reader *b, const struct spec_images_setup *setup,
+	const struct spec_settings *settings, struct spec_error *error)
+{
+	struct comparison comparison = {
+		.result = result, .a = spec_reader_image(a), .b = spec_reader_image(b)};
+	enum spec_status status;
+
+	*result = (struct spec_images){0};
+	spec_measure_clear(&result->spectral);
+	spec_measure_clear(&result->others);
+	status = compare_structure(&comparison, error);
+	comparison.spectral_setup.bands = comparison.bands.count;
+	comparison.spectral_setup.want_angle = setup->want_angle;
+	comparison.spectral_setup.peak = setup->peak;
+	comparison.others_setup.bands = 1;
+	if (status == SPEC_OK && result->comparable && setup->observer &&
+		comparison.a->bands > 0)
+		status = plan_colour(&comparison, setup, error);
+	if (status == SPEC_ERANGE && setup->colour_optional)
+		status = SPEC_OK;
+	if (status == SPEC_OK && result->comparable &&
+		comparison.bands.count + comparison.others.count > 0)
+		status = measure(&comparison, a, b, settings, error);
+	else
+		result->comparable = 0;
+	free_pairs(&comparison.bands);
+	free_pairs(&comparison.others);
+	free(comparison.weight_xyz);
+	return status;
+}
