@@ -1,0 +1,183 @@
+/* spec2rgb - what an eye sees of a spectral image, as a picture; see spec2rgb(1). */
+#include <math.h>
+#include <string.h>
+
+#include "base/number.h"
+#include "base/output.h"
+#include "cli/options.h"
+#include "cli/progress.h"
+#include "image/develop.h"
+#include "spectrum/lookup.h"
+
+#define NOTICEABLE 0.01 /* of Y outside the image's range: worth a warning */
+
+static const struct cli_option options[] = {
+	{0, "observer", "1931|1964|SPD", "colour-matching functions (default: 1931)"},
+	{0, "illuminant", "SPD", "light on an image of reflectance (default: D65)"},
+	{0, "adapt", "none|bradford|cat16",
+		"adapt reflectance to the white of sRGB\n(default: none)"},
+	{'e', "exposure", "EV", "multiply by 2^EV (default: 0)"},
+	{0, "bits", "8|16|32", "bits per sample (default: as the format has them)"},
+	{0},
+};
+
+static const struct cli_program program = {
+	"spec2rgb",
+	"[OPTION]... [FILE]",
+	"Show a spectral image as an sRGB picture: PNG, PPM, EXR by the suffix of -o,\n"
+	"any other format through OpenImageIO.",
+	options,
+};
+
+struct job {
+	const char *input, *observer, *illuminant, *adapt;
+	double exposure;
+	int bits;
+	struct spec_settings settings;
+};
+
+static enum spec_status
+take_option(struct job *job, const char *name, const char *value, struct spec_error *error)
+{
+	enum spec_status status = SPEC_OK;
+	long long bits;
+	int known;
+
+	if (strcmp(name, "observer") == 0) {
+		job->observer = strcmp(value, "1931") == 0   ? "cmf/cie1931"
+				: strcmp(value, "1964") == 0 ? "cmf/cie1964"
+							     : value;
+	} else if (strcmp(name, "illuminant") == 0) {
+		job->illuminant = value;
+	} else if (strcmp(name, "adapt") == 0) {
+		job->adapt = value;
+	} else if (strcmp(name, "exposure") == 0) {
+		status = spec_number_parse(
+			value, -100, 100, "the exposure", &job->exposure, error);
+	} else if (strcmp(name, "bits") == 0) {
+		status = spec_number_parse_whole(
+			value, 8, 32, "the number of bits", &bits, error);
+		job->bits = status == SPEC_OK ? (int)bits : 0;
+	} else {
+		status = spec_settings_take(&job->settings, name, value, &known, error);
+	}
+	return status;
+}
+
+static void
+parse(struct cli *cli, struct job *job, struct spec_error *error)
+{
+	spec_settings_init(&job->settings);
+	while (cli_next(cli)) {
+		if (cli->name)
+			cli_check(
+				cli, take_option(job, cli->name, cli->value, error), error);
+		else if (job->input)
+			cli_usage(cli, "one image at a time: '%s' and '%s'", job->input,
+				cli->value);
+		else
+			job->input = cli->value;
+	}
+	if (!job->input)
+		job->input = "-";
+}
+
+/* The sums that the options ask for. */
+static enum spec_status
+plan(const struct job *job, const struct spec_image *image, struct spec_rgb *rgb,
+	struct spec_error *error)
+{
+	struct spec_curve observer = {0}, illuminant = {0};
+	struct spec_rgb_setup setup = {.observer = &observer,
+		.illuminant = &illuminant,
+		.space = spec_space_find("srgb", error),
+		.exposure = job->exposure};
+	enum spec_status status = spec_lookup_curve(job->observer, &observer, error);
+
+	if (status == SPEC_OK)
+		status = spec_lookup_curve(job->illuminant, &illuminant, error);
+	if (status == SPEC_OK)
+		status = spec_adaptation_find(job->adapt, &setup.adaptation, error);
+	if (status == SPEC_OK)
+		status = spec_rgb_plan(rgb, image, &setup, error);
+	spec_curve_free(&observer);
+	spec_curve_free(&illuminant);
+	return status;
+}
+
+static void
+warn(const struct cli *cli, const struct job *job, const char *name,
+	const struct spec_rgb *rgb, const struct spec_develop *develop)
+{
+	if (job->settings.quiet)
+		return;
+	if (rgb->outside > NOTICEABLE)
+		cli_warn(cli, "%s: %.1f %% of the luminance lies outside its bands", name,
+			100 * rgb->outside);
+	if (develop->nonfinite > 0)
+		cli_warn(cli, "%s: %lld pixels are not finite, the first at %d,%d", name,
+			develop->nonfinite, develop->first_x, develop->first_y);
+}
+
+static enum spec_status
+develop(struct job *job, struct spec_reader *reader, const struct spec_rgb *rgb,
+	struct spec_develop *result, struct spec_error *error)
+{
+	const struct spec_window *window = &spec_reader_image(reader)->data;
+	struct spec_picture_kind kind;
+	struct spec_picture *picture = NULL;
+	struct spec_output output;
+	enum spec_status status =
+		spec_picture_choose(job->settings.output, job->bits, &kind, error);
+
+	if (status == SPEC_OK)
+		status = spec_output_open(&output, job->settings.output, error);
+	if (status != SPEC_OK)
+		return status;
+	status = spec_picture_open(&picture, &kind, &output, spec_window_width(window),
+		spec_window_height(window), spec_space_find("srgb", NULL), error);
+	if (status == SPEC_OK)
+		status = spec_develop_run(
+			result, reader, rgb, picture, kind.sample, &job->settings, error);
+	spec_picture_close(picture);
+	if (status == SPEC_OK)
+		return spec_output_commit(&output, error);
+	spec_output_abandon(&output);
+	return status;
+}
+
+int
+main(int argc, char **argv)
+{
+	struct job job = {.observer = "cmf/cie1931",
+		.illuminant = "illuminants/D65",
+		.adapt = "none"};
+	struct spec_error error = {0};
+	struct spec_reader *reader = NULL;
+	struct spec_rgb rgb = {0};
+	struct spec_develop seen = {0};
+	struct cli_progress progress;
+	enum spec_status status;
+	struct cli cli;
+
+	cli_start(&cli, &program, argc, argv);
+	parse(&cli, &job, &error);
+	cli_progress_start(&progress, "lines", job.settings.progress, job.settings.quiet);
+	job.settings.show = cli_progress_show;
+	job.settings.show_state = &progress;
+
+	status = spec_reader_open(&reader, job.input, &job.settings, &error);
+	cli_check(&cli, status, &error);
+	status = plan(&job, spec_reader_image(reader), &rgb, &error);
+	if (status != SPEC_OK)
+		spec_error_prefix(&error, "%s", spec_reader_name(reader));
+	cli_check(&cli, status, &error);
+
+	status = develop(&job, reader, &rgb, &seen, &error);
+	cli_progress_end(&progress);
+	cli_check(&cli, status, &error);
+	warn(&cli, &job, spec_reader_name(reader), &rgb, &seen);
+	spec_rgb_free(&rgb);
+	spec_reader_close(reader);
+	return 0;
+}

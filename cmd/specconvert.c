@@ -1,0 +1,548 @@
+/* specconvert - change the grid, values or extent of spectra; see specconvert(1). */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include <unistd.h>
+
+#include "base/memory.h"
+#include "base/number.h"
+#include "base/output.h"
+#include "base/source.h"
+#include "cli/options.h"
+#include "cli/progress.h"
+#include "image/convert.h"
+#include "image/patches.h"
+#include "spectrum/lookup.h"
+#include "spectrum/product.h"
+#include "spectrum/spd.h"
+
+#define EXR_FIRST_BYTE 0x76
+#define MOST_CURVES 4096
+
+static const struct cli_option options[] = {
+	{'g', "grid", "LO:HI:STEP", "new bands, linear between the old ones [nm]"},
+	{'b', "band", "WAVELENGTH", "keep this band; may be given several times"},
+	{'m', "multiply", "SPD", "multiply by a curve; may be given several times"},
+	{'s', "scale", "X", "multiply by a number"},
+	{0, "illuminate", "SPD", "turn reflectance into the light it sends back"},
+	{0, "extrapolate", "refuse|zero|constant",
+		"what lies outside the data (default: refuse)"},
+	{0, "crop", "X0,Y0,X1,Y1",
+		"keep these pixels of the data window; x1, y1 are not in it"},
+	{0, "downsample", "N", "mean of N x N pixels"},
+	{0, "patches", "COLUMNSxROWS", "make a chart of patches from curves"},
+	{0, "patch", "PIXELS", "side of a patch (default: 1)"},
+	{0, "gap", "PIXELS", "black between the patches (default: 0)"},
+	{'f', "format", "exr|spd",
+		"of the output (default: the suffix of -o, else the input's)"},
+	{0},
+};
+
+static const struct cli_program program = {
+	"specconvert",
+	"[OPTION]... [FILE|SPD]...",
+	"Change the grid, values or extent of a spectral image or of curves, and turn\n"
+	"one into the other.",
+	options,
+};
+
+struct job {
+	const char **input;
+	size_t inputs;
+	struct spec_grid grid, bands;
+	struct spec_curve *multiply;
+	struct spec_curve illuminate;
+	size_t input_room, multiply_room, band_room;
+	struct spec_convert_setup setup;
+	struct spec_patches_setup patches;
+	int text; /* the output is: 1 text, 0 an image, -1 as the input */
+	struct spec_settings settings;
+};
+
+static enum spec_status
+take_crop(struct spec_convert_setup *setup, const char *text, struct spec_error *error)
+{
+	int *corner[] = {
+		&setup->crop.x0, &setup->crop.y0, &setup->crop.x1, &setup->crop.y1};
+	char part[32];
+
+	setup->has_crop = 1;
+	for (size_t i = 0; i < 4; i++) {
+		size_t length = strcspn(text, ",");
+		long long value;
+		enum spec_status status;
+
+		snprintf(part, sizeof part, "%.*s",
+			(int)(length < sizeof part ? length : sizeof part - 1), text);
+		if ((text[length] == ',') != (i < 3))
+			return spec_error_set(
+				error, SPEC_EUSAGE, "the crop is not X0,Y0,X1,Y1");
+		status = spec_number_parse_whole(
+			part, 0, 1 << 30, "the crop", &value, error);
+		if (status != SPEC_OK)
+			return status;
+		*corner[i] = (int)value;
+		text += length + (i < 3);
+	}
+	return SPEC_OK;
+}
+
+static enum spec_status
+take_patches(struct spec_patches_setup *patches, const char *text, struct spec_error *error)
+{
+	char columns[32];
+	size_t length = strcspn(text, "x");
+	long long value;
+	enum spec_status status;
+
+	if (text[length] != 'x' || length >= sizeof columns)
+		return spec_error_set(error, SPEC_EUSAGE, "'%s' is not COLUMNSxROWS", text);
+	snprintf(columns, sizeof columns, "%.*s", (int)length, text);
+	status = spec_number_parse_whole(
+		columns, 1, MOST_CURVES, "the columns", &value, error);
+	if (status != SPEC_OK)
+		return status;
+	patches->columns = (int)value;
+	status = spec_number_parse_whole(
+		text + length + 1, 1, MOST_CURVES, "the rows", &value, error);
+	patches->rows = (int)value;
+	return status;
+}
+
+static enum spec_status
+take_pixels(int *pixels, long long least, const char *what, const char *text,
+	struct spec_error *error)
+{
+	long long value;
+	enum spec_status status =
+		spec_number_parse_whole(text, least, 1 << 16, what, &value, error);
+
+	if (status == SPEC_OK)
+		*pixels = (int)value;
+	return status;
+}
+
+static int
+compare_numbers(const void *a, const void *b)
+{
+	const double *one = a, *two = b;
+
+	return (*one > *two) - (*one < *two);
+}
+
+static enum spec_status
+take_band(struct job *job, const char *text, struct spec_error *error)
+{
+	void *list = job->bands.wavelength_nm;
+	double wavelength_nm;
+	enum spec_status status =
+		spec_number_parse_length(text, "the band", &wavelength_nm, error);
+
+	if (status == SPEC_OK)
+		status = spec_memory_grow(&list, &job->band_room, job->bands.count + 1,
+			sizeof(double), "bands", error);
+	job->bands.wavelength_nm = list;
+	if (status != SPEC_OK)
+		return status;
+	job->bands.wavelength_nm[job->bands.count++] = wavelength_nm;
+	qsort(list, job->bands.count, sizeof(double), compare_numbers);
+	return SPEC_OK;
+}
+
+static enum spec_status
+take_multiply(struct job *job, const char *text, struct spec_error *error)
+{
+	void *list = job->multiply;
+	enum spec_status status = spec_memory_grow(&list, &job->multiply_room,
+		job->setup.multiplies + 1, sizeof *job->multiply, "curves", error);
+
+	job->multiply = list;
+	if (status == SPEC_OK)
+		status = spec_lookup_curve(
+			text, &job->multiply[job->setup.multiplies], error);
+	if (status == SPEC_OK)
+		job->setup.multiplies++;
+	return status;
+}
+
+static enum spec_status
+take_extrapolate(struct job *job, const char *text, struct spec_error *error)
+{
+	static const char *const names[] = {"refuse", "zero", "constant"};
+
+	for (int i = 0; i < 3; i++) {
+		if (strcmp(text, names[i]) == 0) {
+			job->setup.extrapolate = job->patches.extrapolate =
+				(enum spec_extrapolate)i;
+			return SPEC_OK;
+		}
+	}
+	return spec_error_set(
+		error, SPEC_EUSAGE, "'%s' is not refuse, zero or constant", text);
+}
+
+static enum spec_status
+take_format(struct job *job, const char *text, struct spec_error *error)
+{
+	job->text = strcmp(text, "spd") == 0;
+	if (!job->text && strcmp(text, "exr") != 0)
+		return spec_error_set(
+			error, SPEC_EUSAGE, "unknown format '%s' (exr spd)", text);
+	return SPEC_OK;
+}
+
+static enum spec_status
+take_option(struct job *job, const char *name, const char *value, struct spec_error *error)
+{
+	int known;
+
+	if (strcmp(name, "grid") == 0) {
+		spec_grid_free(&job->grid);
+		return spec_grid_parse(value, &job->grid, error);
+	}
+	if (strcmp(name, "band") == 0)
+		return take_band(job, value, error);
+	if (strcmp(name, "multiply") == 0)
+		return take_multiply(job, value, error);
+	if (strcmp(name, "scale") == 0)
+		return spec_number_parse(
+			value, -1e30, 1e30, "the scale", &job->setup.scale, error);
+	if (strcmp(name, "illuminate") == 0) {
+		spec_curve_free(&job->illuminate);
+		return spec_lookup_curve(value, &job->illuminate, error);
+	}
+	if (strcmp(name, "extrapolate") == 0)
+		return take_extrapolate(job, value, error);
+	if (strcmp(name, "crop") == 0)
+		return take_crop(&job->setup, value, error);
+	if (strcmp(name, "downsample") == 0)
+		return take_pixels(&job->setup.downsample, 1, "the factor", value, error);
+	if (strcmp(name, "patches") == 0)
+		return take_patches(&job->patches, value, error);
+	if (strcmp(name, "patch") == 0)
+		return take_pixels(
+			&job->patches.patch, 1, "the side of a patch", value, error);
+	if (strcmp(name, "gap") == 0)
+		return take_pixels(&job->patches.gap, 0, "the gap", value, error);
+	if (strcmp(name, "format") == 0)
+		return take_format(job, value, error);
+	return spec_settings_take(&job->settings, name, value, &known, error);
+}
+
+static enum spec_status
+take_input(struct job *job, const char *path, struct spec_error *error)
+{
+	void *list = (void *)job->input;
+	enum spec_status status = spec_memory_grow(&list, &job->input_room, job->inputs + 1,
+		sizeof *job->input, "inputs", error);
+
+	job->input = list;
+	if (status == SPEC_OK)
+		job->input[job->inputs++] = path;
+	return status;
+}
+
+static void
+parse(struct cli *cli, struct job *job, struct spec_error *error)
+{
+	spec_settings_init(&job->settings);
+	while (cli_next(cli)) {
+		enum spec_status status =
+			cli->name ? take_option(job, cli->name, cli->value, error)
+				  : take_input(job, cli->value, error);
+
+		cli_check(cli, status, error);
+	}
+	if (job->inputs == 0)
+		cli_check(cli, take_input(job, "-", error), error);
+	if (job->grid.count > 0 && job->bands.count > 0)
+		cli_usage(cli, "--grid and --band exclude each other");
+	job->setup.grid = job->grid.count > 0 ? &job->grid : NULL;
+	job->setup.bands = job->bands.count > 0 ? &job->bands : NULL;
+	job->setup.multiply = job->multiply;
+	job->setup.illuminate = job->illuminate.count > 0 ? &job->illuminate : NULL;
+	job->setup.half = job->patches.half = job->settings.half;
+}
+
+static int
+has_suffix(const char *path, const char *suffix)
+{
+	size_t length = strlen(path), tail = strlen(suffix);
+
+	return length > tail && strcasecmp(path + length - tail, suffix) == 0;
+}
+
+static int
+is_text_name(const char *path)
+{
+	return has_suffix(path, ".spd") || has_suffix(path, ".txt") ||
+	       has_suffix(path, ".csv");
+}
+
+/* A curve is a text file, a name in the spectra folder, or text on standard input. */
+static int
+is_curve(const char *path)
+{
+	int byte;
+
+	if (is_text_name(path))
+		return 1;
+	byte = spec_source_peek(path);
+	if (byte == EXR_FIRST_BYTE || has_suffix(path, ".exr"))
+		return 0;
+	if (strcmp(path, "-") == 0 || strncmp(path, "/dev/fd/", 8) == 0)
+		return byte >= 0;
+	return access(path, F_OK) != 0 && path[0] != '/' && path[0] != '.';
+}
+
+static int
+wants_text(const struct job *job, int input_is_text)
+{
+	if (job->text >= 0)
+		return job->text;
+	if (strcmp(job->settings.output, "-") == 0 || !strchr(job->settings.output, '.'))
+		return input_is_text && job->patches.columns == 0;
+	return is_text_name(job->settings.output);
+}
+
+static enum spec_status
+write_text(const struct job *job, const struct spec_curve *curve, struct spec_error *error)
+{
+	struct spec_output output;
+	char *text = NULL;
+	size_t size = 0;
+	FILE *memory = open_memstream(&text, &size);
+	enum spec_status status;
+
+	if (!memory)
+		return spec_error_set(error, SPEC_ENOMEM, "out of memory for a text");
+	status = spec_spd_write(memory, curve, error);
+	fclose(memory);
+	if (status == SPEC_OK)
+		status = spec_output_open(&output, job->settings.output, error);
+	if (status == SPEC_OK) {
+		status = spec_output_write(&output, text, size, error);
+		if (status == SPEC_OK)
+			status = spec_output_commit(&output, error);
+		else
+			spec_output_abandon(&output);
+	}
+	free(text);
+	return status;
+}
+
+/* A curve after --grid, --multiply and --scale. */
+static enum spec_status
+load_curve(const struct job *job, const char *name, struct spec_curve *curve,
+	struct spec_error *error)
+{
+	const struct spec_curve *factor = job->setup.multiply;
+	struct spec_curve next;
+	enum spec_status status = strcmp(name, "-") == 0
+					  ? spec_spd_read(stdin, "<stdin>", curve, error)
+					  : spec_lookup_curve(name, curve, error);
+
+	for (size_t i = 0; i < job->setup.multiplies && status == SPEC_OK; i++) {
+		status = spec_curve_multiply(curve, &factor[i], &next, error);
+		if (status == SPEC_OK) {
+			spec_curve_free(curve);
+			*curve = next;
+		}
+	}
+	if (status == SPEC_OK && job->setup.grid) {
+		status = spec_curve_resample(
+			curve, job->setup.grid, job->setup.extrapolate, &next, error);
+		if (status == SPEC_OK) {
+			spec_curve_free(curve);
+			*curve = next;
+		}
+	}
+	for (size_t i = 0; i < curve->count * curve->columns && status == SPEC_OK; i++)
+		curve->value[i] *= job->setup.scale;
+	return status;
+}
+
+static enum spec_status
+write_chart(struct job *job, const struct spec_curve *curve, int argc, char **argv,
+	struct spec_error *error)
+{
+	struct spec_patches_setup *patches = &job->patches;
+	struct spec_grid own = {curve[0].wavelength_nm, curve[0].count};
+	struct spec_output output;
+	struct spec_image image;
+	enum spec_status status;
+
+	patches->grid = job->setup.grid ? job->setup.grid : &own;
+	if (patches->columns == 0) {
+		patches->columns = (int)job->inputs;
+		patches->rows = 1;
+	}
+	status = spec_patches_image(&image, curve, job->inputs, patches, error);
+	if (status == SPEC_OK && job->settings.history)
+		status = spec_image_add_history(&image, argc, argv, error);
+	if (status == SPEC_OK)
+		status = spec_output_open(&output, job->settings.output, error);
+	if (status == SPEC_OK) {
+		status = spec_patches_write(&image, curve, job->inputs, patches, &output,
+			&job->settings, error);
+		if (status == SPEC_OK)
+			status = spec_output_commit(&output, error);
+		else
+			spec_output_abandon(&output);
+	}
+	spec_image_clear(&image);
+	return status;
+}
+
+static enum spec_status
+check_curve_options(const struct job *job, int text, struct spec_error *error)
+{
+	if (job->setup.has_crop || job->setup.downsample > 1 || job->setup.bands ||
+		job->setup.illuminate)
+		return spec_error_set(error, SPEC_EUSAGE,
+			"--crop, --downsample, --band and --illuminate are for images, not "
+			"for curves");
+	if (text && job->inputs > 1)
+		return spec_error_set(error, SPEC_EUSAGE,
+			"one curve at a time, or an image of them (--patches, or -o "
+			"FILE.exr)");
+	return job->inputs > MOST_CURVES ? spec_error_set(error, SPEC_ERANGE,
+						   "more than %d curves", MOST_CURVES)
+					 : SPEC_OK;
+}
+
+static enum spec_status
+convert_curves(struct job *job, int argc, char **argv, struct spec_error *error)
+{
+	int text = wants_text(job, 1);
+	enum spec_status status = check_curve_options(job, text, error);
+	struct spec_curve *curve;
+
+	if (status != SPEC_OK)
+		return status;
+	curve = spec_memory_new(job->inputs, sizeof *curve, "curves", error);
+	status = curve ? SPEC_OK : SPEC_ENOMEM;
+	for (size_t i = 0; i < job->inputs && status == SPEC_OK; i++)
+		status = load_curve(job, job->input[i], &curve[i], error);
+	if (status == SPEC_OK)
+		status = text ? write_text(job, &curve[0], error)
+			      : write_chart(job, curve, argc, argv, error);
+	for (size_t i = 0; curve && i < job->inputs; i++)
+		spec_curve_free(&curve[i]);
+	free(curve);
+	return status;
+}
+
+static enum spec_status
+write_image(struct job *job, struct spec_reader *reader, struct spec_convert *convert,
+	struct spec_error *error)
+{
+	struct spec_writer *writer = NULL;
+	struct spec_output output;
+	enum spec_status status = spec_output_open(&output, job->settings.output, error);
+
+	if (status != SPEC_OK)
+		return status;
+	status = spec_writer_open(
+		&writer, &convert->image, &output, job->settings.compression, error);
+	if (status == SPEC_OK)
+		status = spec_convert_run(convert, reader, writer, &job->settings, error);
+	spec_writer_close(writer);
+	if (status == SPEC_OK)
+		return spec_output_commit(&output, error);
+	spec_output_abandon(&output);
+	return status;
+}
+
+static int
+changes_image(const struct job *job)
+{
+	const struct spec_convert_setup *setup = &job->setup;
+
+	return setup->grid || setup->bands || setup->multiplies > 0 || setup->illuminate ||
+	       setup->has_crop || setup->downsample > 1 || setup->scale != 1;
+}
+
+static enum spec_status
+image_to_text(struct job *job, struct spec_reader *reader, struct spec_error *error)
+{
+	struct spec_curve curve = {0};
+	enum spec_status status;
+
+	if (changes_image(job))
+		return spec_error_set(error, SPEC_EUSAGE,
+			"change the image first, then make it text: specconvert ... | "
+			"specconvert -f spd");
+	status = spec_patches_curve(reader, &curve, error);
+	if (status == SPEC_OK)
+		status = write_text(job, &curve, error);
+	spec_curve_free(&curve);
+	return status;
+}
+
+static enum spec_status
+convert_image(struct job *job, int argc, char **argv, struct spec_error *error)
+{
+	struct spec_convert convert = {0};
+	struct spec_reader *reader = NULL;
+	enum spec_status status;
+
+	if (job->inputs > 1)
+		return spec_error_set(error, SPEC_EUSAGE,
+			"one image at a time: '%s' and '%s'", job->input[0], job->input[1]);
+	if (job->patches.columns > 0)
+		return spec_error_set(error, SPEC_EUSAGE,
+			"--patches is for curves, '%s' is an image", job->input[0]);
+	status = spec_reader_open(&reader, job->input[0], &job->settings, error);
+	if (status == SPEC_OK && wants_text(job, 0)) {
+		status = image_to_text(job, reader, error);
+	} else if (status == SPEC_OK) {
+		status = spec_convert_plan(&convert, spec_reader_image(reader), &job->setup,
+			spec_reader_name(reader), error);
+		if (status == SPEC_OK && job->settings.history)
+			status = spec_image_add_history(&convert.image, argc, argv, error);
+		if (status == SPEC_OK)
+			status = write_image(job, reader, &convert, error);
+	}
+	spec_convert_free(&convert);
+	spec_reader_close(reader);
+	return status;
+}
+
+static void
+free_job(struct job *job)
+{
+	for (size_t i = 0; i < job->setup.multiplies; i++)
+		spec_curve_free(&job->multiply[i]);
+	free(job->multiply);
+	free((void *)job->input);
+	spec_curve_free(&job->illuminate);
+	spec_grid_free(&job->grid);
+	spec_grid_free(&job->bands);
+}
+
+int
+main(int argc, char **argv)
+{
+	struct job job = {.setup = {.downsample = 1, .scale = 1},
+		.patches = {.patch = 1},
+		.text = -1};
+	struct spec_error error = {0};
+	struct cli_progress progress;
+	enum spec_status status;
+	struct cli cli;
+
+	cli_start(&cli, &program, argc, argv);
+	parse(&cli, &job, &error);
+	cli_progress_start(&progress, "lines", job.settings.progress, job.settings.quiet);
+	job.settings.show = cli_progress_show;
+	job.settings.show_state = &progress;
+
+	status = is_curve(job.input[0]) ? convert_curves(&job, argc, argv, &error)
+					: convert_image(&job, argc, argv, &error);
+	cli_progress_end(&progress);
+	cli_check(&cli, status, &error);
+	free_job(&job);
+	return 0;
+}

@@ -1,0 +1,326 @@
+/* specdiff - how far apart two spectral images are; see specdiff(1). */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/number.h"
+#include "cli/options.h"
+#include "cli/progress.h"
+#include "compare/images.h"
+#include "spectrum/lookup.h"
+
+#define EXIT_DIFFERENT 1
+
+static const struct cli_option options[] = {
+	{'m', "metric", "NAME,...",
+		"print these: rmse max sam sam-max psnr gfc gfc-min de2000\n"
+		"de2000-max (default: all)"},
+	{'t', "tolerance", "NAME=VALUE",
+		"differ only beyond this; may be given several times"},
+	{0, "observer", "1931|1964|SPD", "for de2000 (default: 1931)"},
+	{0, "illuminant", "SPD", "for de2000 of reflectance (default: D65)"},
+	{'e', "exposure", "EV", "for de2000 of light: 2^-EV is white (default: 0)"},
+	{0, "peak", "VALUE", "of psnr (default: the largest magnitude in the first)"},
+	{0},
+};
+
+static const struct cli_program program = {
+	"specdiff",
+	"[OPTION]... FILE1 FILE2",
+	"Tell how far apart two spectral images are. Exit status: 0 the same (or within\n"
+	"the tolerances), 1 different, 2 trouble.",
+	options,
+};
+
+struct metric {
+	const char *name, *unit;
+	int larger_is_better, angular, colour;
+};
+
+static const struct metric metrics[] = {
+	{"rmse", "", 0, 0, 0},
+	{"max", "", 0, 0, 0},
+	{"sam", " rad", 0, 1, 0},
+	{"sam-max", " rad", 0, 1, 0},
+	{"psnr", " dB", 1, 0, 0},
+	{"gfc", "", 1, 1, 0},
+	{"gfc-min", "", 1, 1, 0},
+	{"de2000", "", 0, 0, 1},
+	{"de2000-max", "", 0, 0, 1},
+};
+
+enum { METRICS = sizeof metrics / sizeof metrics[0] };
+
+struct job {
+	const char *input[2];
+	int inputs;
+	int chosen[METRICS], any_chosen;
+	double tolerance[METRICS];
+	int judged[METRICS], any_judged;
+	const char *observer, *illuminant;
+	double exposure, peak;
+	struct spec_settings settings;
+};
+
+static enum spec_status
+find_metric(const char *name, size_t length, size_t *index, struct spec_error *error)
+{
+	for (*index = 0; *index < METRICS; (*index)++) {
+		if (strlen(metrics[*index].name) == length &&
+			memcmp(metrics[*index].name, name, length) == 0)
+			return SPEC_OK;
+	}
+	return spec_error_set(error, SPEC_EUSAGE, "unknown metric '%.*s' (try --help)",
+		(int)(length < 64 ? length : 64), name);
+}
+
+static enum spec_status
+take_metrics(struct job *job, const char *text, struct spec_error *error)
+{
+	enum spec_status status = SPEC_OK;
+	size_t index;
+
+	job->any_chosen = 1;
+	while (status == SPEC_OK) {
+		size_t length = strcspn(text, ",");
+
+		status = find_metric(text, length, &index, error);
+		if (status == SPEC_OK)
+			job->chosen[index] = 1;
+		if (text[length] == '\0')
+			break;
+		text += length + 1;
+	}
+	return status;
+}
+
+static enum spec_status
+take_tolerance(struct job *job, const char *text, struct spec_error *error)
+{
+	size_t length = strcspn(text, "="), index;
+	enum spec_status status = find_metric(text, length, &index, error);
+
+	if (status != SPEC_OK)
+		return status;
+	if (text[length] == '\0')
+		return spec_error_set(error, SPEC_EUSAGE, "'%s' is not NAME=VALUE", text);
+	job->judged[index] = job->any_judged = 1;
+	return spec_number_parse(text + length + 1, 0, 1e300, "the tolerance",
+		&job->tolerance[index], error);
+}
+
+static enum spec_status
+take_option(struct job *job, const char *name, const char *value, struct spec_error *error)
+{
+	int known;
+
+	if (strcmp(name, "metric") == 0)
+		return take_metrics(job, value, error);
+	if (strcmp(name, "tolerance") == 0)
+		return take_tolerance(job, value, error);
+	if (strcmp(name, "exposure") == 0)
+		return spec_number_parse(
+			value, -100, 100, "the exposure", &job->exposure, error);
+	if (strcmp(name, "peak") == 0)
+		return spec_number_parse(
+			value, 1e-300, 1e300, "the peak", &job->peak, error);
+	if (strcmp(name, "observer") == 0)
+		job->observer = strcmp(value, "1931") == 0   ? "cmf/cie1931"
+				: strcmp(value, "1964") == 0 ? "cmf/cie1964"
+							     : value;
+	else if (strcmp(name, "illuminant") == 0)
+		job->illuminant = value;
+	else
+		return spec_settings_take(&job->settings, name, value, &known, error);
+	return SPEC_OK;
+}
+
+static void
+parse(struct cli *cli, struct job *job, struct spec_error *error)
+{
+	spec_settings_init(&job->settings);
+	while (cli_next(cli)) {
+		if (cli->name)
+			cli_check(
+				cli, take_option(job, cli->name, cli->value, error), error);
+		else if (job->inputs == 2)
+			cli_usage(cli, "two images at a time: '%s' is one too many",
+				cli->value);
+		else
+			job->input[job->inputs++] = cli->value;
+	}
+	if (job->inputs < 2)
+		cli_usage(cli, "two images are needed (try --help)");
+	if (strcmp(job->input[0], "-") == 0 && strcmp(job->input[1], "-") == 0)
+		cli_usage(cli, "only one of the images can come from standard input");
+}
+
+static double
+value_of(const struct spec_images *result, size_t index, double peak)
+{
+	const struct spec_measure *spectral = &result->spectral;
+	double others = result->other_count > 0 ? spec_measure_max(&result->others) : 0;
+	double most = result->bands > 0 ? spec_measure_max(spectral) : 0;
+
+	switch (index) {
+	case 0:
+		return result->bands > 0 ? spec_measure_rmse(spectral) : 0;
+	case 1:
+		return most > others ? most : others;
+	case 2:
+		return spec_measure_angle_mean(spectral);
+	case 3:
+		return spec_measure_angle_max(spectral);
+	case 4:
+		return spec_measure_psnr(spectral, peak);
+	case 5:
+		return spec_measure_fit_mean(spectral);
+	case 6:
+		return spec_measure_fit_min(spectral);
+	case 7:
+		return spec_measure_colour_mean(spectral);
+	default:
+		return spec_measure_colour_max(spectral);
+	}
+}
+
+static int
+applies(const struct spec_images *result, size_t index)
+{
+	if (metrics[index].colour)
+		return result->coloured;
+	return result->bands > 0 || index <= 1;
+}
+
+/* Where the largest difference of the measure is, and between what. */
+static void
+print_place(const struct spec_images *result, const struct spec_image *image)
+{
+	const struct spec_measure *worst = &result->spectral;
+
+	if (result->other_count > 0 &&
+		spec_measure_max(&result->others) >
+			(result->bands > 0 ? spec_measure_max(worst) : 0))
+		worst = &result->others;
+	if (worst->nonfinite > 0)
+		printf(" at %zu,%d in '%s': %.9g and %.9g, the first of %llu that are not "
+		       "finite",
+			worst->nonfinite_first.x, worst->nonfinite_first.y,
+			image->channel[worst->nonfinite_first.band].name,
+			worst->nonfinite_a, worst->nonfinite_b,
+			(unsigned long long)worst->nonfinite);
+	else if (worst->difference.value > 0)
+		printf(" at %zu,%d in '%s': %.9g and %.9g", worst->difference.place.x,
+			worst->difference.place.y,
+			image->channel[worst->difference.place.band].name,
+			worst->difference_a, worst->difference_b);
+}
+
+static void
+print_pixel(const struct spec_measure_extreme *extreme, double least)
+{
+	if (extreme->value > least)
+		printf(" at %zu,%d", extreme->place.x, extreme->place.y);
+}
+
+static int
+print_metrics(const struct job *job, const struct spec_images *result,
+	const struct spec_image *image)
+{
+	int different = 0;
+
+	for (size_t i = 0; i < METRICS; i++) {
+		double value;
+		int beyond;
+
+		if (!applies(result, i)) {
+			different |=
+				job->judged[i]; /* what cannot be measured is not within */
+			continue;
+		}
+		value = value_of(result, i, job->peak);
+		beyond = job->judged[i] &&
+			 !(metrics[i].larger_is_better ? value >= job->tolerance[i]
+						       : value <= job->tolerance[i]);
+		different |= beyond;
+		if (!job->any_chosen || job->chosen[i]) {
+			printf("%-10s %.6g%s", metrics[i].name, value, metrics[i].unit);
+			if (i == 1)
+				print_place(result, image);
+			else if (i == 3)
+				print_pixel(&result->spectral.angle_most, 0);
+			else if (i == 8)
+				print_pixel(&result->spectral.colour_most, 0);
+			printf(beyond ? " (beyond %g)\n" : "\n", job->tolerance[i]);
+		}
+	}
+	if (!job->any_judged)
+		different = value_of(result, 1, 0) > 0;
+	return different;
+}
+
+static enum spec_status
+compare(struct job *job, struct spec_reader *reader[2], struct spec_images *result,
+	struct spec_error *error)
+{
+	struct spec_curve observer = {0}, illuminant = {0};
+	struct spec_images_setup setup = {.exposure = job->exposure, .peak = job->peak};
+	enum spec_status status = SPEC_OK;
+	int colour = !job->any_chosen;
+
+	setup.want_angle = !job->any_chosen;
+	for (size_t i = 0; i < METRICS; i++) {
+		colour |= metrics[i].colour && (job->chosen[i] || job->judged[i]);
+		setup.want_angle |=
+			metrics[i].angular && (job->chosen[i] || job->judged[i]);
+	}
+	setup.colour_optional = !job->any_chosen && !job->any_judged;
+	if (colour) {
+		status = spec_lookup_curve(job->observer, &observer, error);
+		if (status == SPEC_OK)
+			status = spec_lookup_curve(job->illuminant, &illuminant, error);
+		setup.observer = &observer;
+		setup.illuminant = &illuminant;
+	}
+	if (status == SPEC_OK)
+		status = spec_images_compare(
+			result, reader[0], reader[1], &setup, &job->settings, error);
+	spec_curve_free(&observer);
+	spec_curve_free(&illuminant);
+	return status;
+}
+
+int
+main(int argc, char **argv)
+{
+	struct job job = {.observer = "cmf/cie1931", .illuminant = "illuminants/D65"};
+	struct spec_error error = {0};
+	struct spec_reader *reader[2] = {NULL, NULL};
+	struct spec_images result;
+	struct cli_progress progress;
+	enum spec_status status;
+	int different;
+	struct cli cli;
+
+	cli_start(&cli, &program, argc, argv);
+	parse(&cli, &job, &error);
+	cli_progress_start(&progress, "lines", job.settings.progress, job.settings.quiet);
+	job.settings.show = cli_progress_show;
+	job.settings.show_state = &progress;
+
+	for (int i = 0; i < 2; i++)
+		cli_check(&cli,
+			spec_reader_open(&reader[i], job.input[i], &job.settings, &error),
+			&error);
+	status = compare(&job, reader, &result, &error);
+	cli_progress_end(&progress);
+	cli_check(&cli, status, &error);
+
+	different = result.structure[0] != '\0';
+	fputs(result.structure, stdout);
+	if (result.comparable)
+		different |= print_metrics(&job, &result, spec_reader_image(reader[0]));
+	spec_reader_close(reader[0]);
+	spec_reader_close(reader[1]);
+	return cli_finish(&cli, different ? EXIT_DIFFERENT : 0);
+}
