@@ -1,0 +1,321 @@
+/* Decoding what was fetched: decompressing, ordering and converting lines. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "image/codec.h"
+#include "image/exr.h"
+#include "image/half.h"
+#include "image/reading.h"
+
+_Static_assert(
+	__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "chunks are used as they are stored");
+
+enum spec_status
+spec_decoder_open(struct spec_decoder **result, struct spec_reader *reader,
+	const unsigned char *wanted, struct spec_error *error)
+{
+	struct spec_decoder *decoder =
+		spec_memory_new(1, sizeof *decoder, "decoders", error);
+	size_t channels = reader->image.channels;
+
+	*result = decoder;
+	if (!decoder)
+		return SPEC_ENOMEM;
+	decoder->reader = reader;
+	decoder->wanted = spec_memory_new(channels, 1, "channels", error);
+	decoder->decompressor = libdeflate_alloc_decompressor();
+	if (!decoder->wanted || !decoder->decompressor) {
+		spec_decoder_close(decoder);
+		*result = NULL;
+		return spec_error_set(error, SPEC_ENOMEM, "out of memory for a decoder");
+	}
+	for (size_t i = 0; i < channels; i++)
+		decoder->wanted[i] = wanted ? wanted[i] : 1;
+	return SPEC_OK;
+}
+
+void
+spec_decoder_close(struct spec_decoder *decoder)
+{
+	if (!decoder)
+		return;
+	if (decoder->started) {
+		/* These are ours; the library would free them. */
+		decoder->pipeline.packed_buffer = decoder->pipeline.unpacked_buffer = NULL;
+		decoder->pipeline.packed_alloc_size =
+			decoder->pipeline.unpacked_alloc_size = 0;
+		exr_decoding_destroy(decoder->reader->context, &decoder->pipeline);
+	}
+	if (decoder->decompressor)
+		libdeflate_free_decompressor(decoder->decompressor);
+	free(decoder->wanted);
+	free(decoder->packed.bytes);
+	free(decoder->unpacked.bytes);
+	free(decoder->tile.bytes);
+	free(decoder->converted.bytes);
+	free(decoder->chunk);
+	free(decoder->line);
+	free(decoder->row);
+	free(decoder);
+}
+
+/* Grows a buffer, keeping the first kept bytes. */
+
+static exr_result_t
+read_nothing(exr_decode_pipeline_t *pipeline)
+{
+	(void)pipeline;
+	return EXR_ERR_SUCCESS;
+}
+
+static exr_result_t
+start_pipeline(struct spec_decoder *decoder, const exr_chunk_info_t *info)
+{
+	exr_const_context_t context = decoder->reader->context;
+	int part = decoder->reader->part;
+	exr_decode_pipeline_t *pipeline = &decoder->pipeline;
+	exr_result_t result;
+
+	if (decoder->started)
+		return exr_decoding_update(context, part, info, pipeline);
+	result = exr_decoding_initialize(context, part, info, pipeline);
+	if (result != EXR_ERR_SUCCESS)
+		return result;
+	decoder->started = 1;
+	result = exr_decoding_choose_default_routines(context, part, pipeline);
+	pipeline->read_fn = read_nothing;
+	pipeline->unpack_and_convert_fn = NULL;
+	if (info->compression == EXR_COMPRESSION_ZIP ||
+		info->compression == EXR_COMPRESSION_ZIPS) {
+		pipeline->decompress_fn = spec_codec_inflate;
+		pipeline->decoding_user_data = decoder->decompressor;
+	}
+	return result;
+}
+
+/* Decodes one chunk into room for its unpacked size, or leaves it where it is; *bytes: where. */
+static enum spec_status
+decode_chunk(struct spec_decoder *decoder, const struct spec_fetched *chunk,
+	unsigned char *room, const unsigned char **bytes, struct spec_error *error)
+{
+	const exr_chunk_info_t *info = &chunk->info;
+	exr_decode_pipeline_t *pipeline = &decoder->pipeline;
+	int stored = info->packed_size == info->unpacked_size;
+	exr_result_t result;
+
+	*bytes = decoder->packed.bytes + chunk->at;
+	if (stored && info->compression != EXR_COMPRESSION_B44 &&
+		info->compression != EXR_COMPRESSION_B44A)
+		return SPEC_OK;
+	spec_exr_forget();
+	result = start_pipeline(decoder, info);
+	pipeline->packed_buffer = decoder->packed.bytes + chunk->at;
+	pipeline->packed_alloc_size = 0;
+	pipeline->unpacked_buffer = stored ? NULL : room;
+	pipeline->unpacked_alloc_size = stored ? 0 : info->unpacked_size;
+	if (result == EXR_ERR_SUCCESS)
+		result = exr_decoding_run(
+			decoder->reader->context, decoder->reader->part, pipeline);
+	if (!stored)
+		*bytes = room;
+	pipeline->packed_buffer = pipeline->unpacked_buffer = NULL;
+	pipeline->packed_alloc_size = pipeline->unpacked_alloc_size = 0;
+	if (result != EXR_ERR_SUCCESS)
+		return spec_error_set(error, SPEC_EFORMAT,
+			"%s: the data of line %d are damaged", decoder->reader->source.name,
+			decoder->reader->tiled ? decoder->y0 : info->start_y);
+	return SPEC_OK;
+}
+
+static enum spec_status
+decode_scanlines(struct spec_decoder *decoder, struct spec_error *error)
+{
+	const struct spec_reader *reader = decoder->reader;
+	size_t total = 0, used = 0;
+	enum spec_status status;
+
+	for (size_t i = 0; i < decoder->chunks; i++) {
+		const exr_chunk_info_t *info = &decoder->chunk[i].info;
+
+		if (info->unpacked_size != reader->line_bytes * (size_t)info->height)
+			return spec_error_set(error, SPEC_EFORMAT,
+				"%s: line %d has a wrong size", reader->source.name,
+				info->start_y);
+		if (info->packed_size != info->unpacked_size)
+			total += spec_reading_align(info->unpacked_size);
+	}
+	status = spec_reading_reserve(&decoder->unpacked, total, 0, error);
+	for (size_t i = 0; i < decoder->chunks && status == SPEC_OK; i++) {
+		const exr_chunk_info_t *info = &decoder->chunk[i].info;
+		const unsigned char *bytes;
+
+		status = decode_chunk(decoder, &decoder->chunk[i],
+			decoder->unpacked.bytes + used, &bytes, error);
+		if (info->packed_size != info->unpacked_size)
+			used += spec_reading_align(info->unpacked_size);
+		for (int line = 0; line < info->height && status == SPEC_OK; line++) {
+			int row = info->start_y + line - decoder->y0;
+
+			if (row >= 0 && row < decoder->lines)
+				decoder->line[row] =
+					bytes + (size_t)line * reader->line_bytes;
+		}
+	}
+	return status;
+}
+
+/* Puts a tile's samples where they stand in the lines: line, channel, sample. */
+static void
+place_tile(struct spec_decoder *decoder, const exr_chunk_info_t *info, size_t first_line,
+	const unsigned char *bytes)
+{
+	const struct spec_reader *reader = decoder->reader;
+	size_t x = (size_t)info->start_x * reader->tile_width;
+
+	for (size_t line = 0; line < (size_t)info->height; line++) {
+		unsigned char *to =
+			decoder->unpacked.bytes + (first_line + line) * reader->line_bytes;
+
+		for (size_t i = 0; i < reader->image.channels; i++) {
+			size_t size =
+				spec_exr_sample_bytes(reader->image.channel[i].sample);
+
+			memcpy(to + reader->offset[i] + x * size, bytes,
+				info->width * size);
+			bytes += info->width * size;
+		}
+	}
+}
+
+static enum spec_status
+decode_tiles(struct spec_decoder *decoder, struct spec_error *error)
+{
+	const struct spec_reader *reader = decoder->reader;
+	size_t tile_rows = decoder->chunks / reader->tiles_across;
+	size_t above = decoder->y0 - spec_reading_chunk_start(reader, decoder->y0);
+	enum spec_status status = spec_reading_reserve(&decoder->unpacked,
+		tile_rows * reader->chunk_lines * reader->line_bytes, 0, error);
+
+	for (size_t i = 0; i < decoder->chunks && status == SPEC_OK; i++) {
+		const struct spec_fetched *chunk = &decoder->chunk[i];
+		size_t first_line = i / reader->tiles_across * reader->chunk_lines;
+		size_t pixels = (size_t)chunk->info.width * chunk->info.height;
+		const unsigned char *bytes;
+
+		if (chunk->info.unpacked_size !=
+				pixels * (reader->line_bytes /
+						 spec_window_width(&reader->image.data)) ||
+			chunk->info.start_x * (long long)reader->tile_width +
+					chunk->info.width >
+				(long long)spec_window_width(&reader->image.data))
+			return spec_error_set(error, SPEC_EFORMAT,
+				"%s: a tile has a wrong size", reader->source.name);
+		status = spec_reading_reserve(
+			&decoder->tile, chunk->info.unpacked_size, 0, error);
+		if (status == SPEC_OK)
+			status = decode_chunk(
+				decoder, chunk, decoder->tile.bytes, &bytes, error);
+		if (status == SPEC_OK)
+			place_tile(decoder, &chunk->info, first_line, bytes);
+	}
+	for (int row = 0; row < decoder->lines && status == SPEC_OK; row++)
+		decoder->line[row] =
+			decoder->unpacked.bytes + (above + row) * reader->line_bytes;
+	return status;
+}
+
+/* Bands are numbers, whatever they are stored as; a UINT that is no band stays bits. */
+static int
+needs_copy(const struct spec_reader *reader, size_t index)
+{
+	const struct spec_channel *channel = &reader->image.channel[index];
+
+	return channel->sample == SPEC_SAMPLE_HALF ||
+	       (channel->sample == SPEC_SAMPLE_UINT && channel->role != SPEC_ROLE_OTHER) ||
+	       reader->offset[index] % 4 != 0 || reader->line_bytes % 4 != 0;
+}
+
+static void
+copy_row(const struct spec_channel *channel, float *to, const unsigned char *from,
+	size_t width)
+{
+	if (channel->sample == SPEC_SAMPLE_HALF) {
+		spec_half_to_float(to, from, width);
+		return;
+	}
+	memcpy(to, from, width * sizeof *to);
+	if (channel->sample == SPEC_SAMPLE_UINT && channel->role != SPEC_ROLE_OTHER) {
+		for (size_t x = 0; x < width; x++) {
+			uint32_t number;
+
+			memcpy(&number, to + x, sizeof number);
+			to[x] = (float)number;
+		}
+	}
+}
+
+/* What can be used where it lies is; the rest is copied. */
+static enum spec_status
+convert(struct spec_decoder *decoder, struct spec_error *error)
+{
+	const struct spec_reader *reader = decoder->reader;
+	const struct spec_image *image = &reader->image;
+	size_t width = spec_window_width(&image->data),
+	       room = spec_reading_align(width * sizeof(float));
+	size_t copies = 0;
+	enum spec_status status;
+	unsigned char *to;
+
+	for (size_t i = 0; i < image->channels; i++)
+		copies += decoder->wanted[i] && needs_copy(reader, i);
+	status = spec_reading_reserve(
+		&decoder->converted, copies * decoder->lines * room, 0, error);
+	if (status != SPEC_OK)
+		return status;
+	to = decoder->converted.bytes;
+	for (int row = 0; row < decoder->lines; row++) {
+		for (size_t i = 0; i < image->channels; i++) {
+			const unsigned char *from = decoder->line[row] + reader->offset[i];
+			float **result = &decoder->row[row * image->channels + i];
+
+			*result = NULL;
+			if (!decoder->wanted[i])
+				continue;
+			if (!needs_copy(reader, i)) {
+				*result = (float *)(void *)from;
+				continue;
+			}
+			*result = (float *)(void *)to;
+			to += room;
+			copy_row(&image->channel[i], *result, from, width);
+		}
+	}
+	return SPEC_OK;
+}
+
+enum spec_status
+spec_decoder_decode(struct spec_decoder *decoder, struct spec_error *error)
+{
+	void *lines = decoder->line, *rows = decoder->row;
+	enum spec_status status = spec_memory_grow(&lines, &decoder->line_room,
+		decoder->lines, sizeof *decoder->line, "lines", error);
+
+	decoder->line = lines;
+	if (status == SPEC_OK) {
+		status = spec_memory_grow(&rows, &decoder->row_room,
+			decoder->lines * decoder->reader->image.channels,
+			sizeof *decoder->row, "rows", error);
+		decoder->row = rows;
+	}
+	if (status == SPEC_OK)
+		status = decoder->reader->tiled ? decode_tiles(decoder, error)
+						: decode_scanlines(decoder, error);
+	return status == SPEC_OK ? convert(decoder, error) : status;
+}
+
+const float *
+spec_decoder_row(const struct spec_decoder *decoder, int y, size_t channel)
+{
+	return decoder->row[(y - decoder->y0) * decoder->reader->image.channels + channel];
+}
