@@ -6,6 +6,7 @@
 #include "base/output.h"
 #include "cli/options.h"
 #include "cli/progress.h"
+#include "colour/observer.h"
 #include "image/develop.h"
 #include "spectrum/lookup.h"
 
@@ -44,9 +45,7 @@ take_option(struct job *job, const char *name, const char *value, struct spec_er
 	int known;
 
 	if (strcmp(name, "observer") == 0) {
-		job->observer = strcmp(value, "1931") == 0   ? "cmf/cie1931"
-				: strcmp(value, "1964") == 0 ? "cmf/cie1964"
-							     : value;
+		job->observer = spec_observer_spectrum(value);
 	} else if (strcmp(name, "illuminant") == 0) {
 		job->illuminant = value;
 	} else if (strcmp(name, "adapt") == 0) {
@@ -149,7 +148,7 @@ develop(struct job *job, struct spec_reader *reader, const struct spec_rgb *rgb,
 int
 main(int argc, char **argv)
 {
-	struct job job = {.observer = "cmf/cie1931",
+	struct job job = {.observer = spec_observer_spectrum("1931"),
 		.illuminant = "illuminants/D65",
 		.adapt = "none"};
 	struct spec_error error = {0};

@@ -306,32 +306,6 @@ wants_text(const struct job *job, int input_is_text)
 	return is_text_name(job->settings.output);
 }
 
-static enum spec_status
-write_text(const struct job *job, const struct spec_curve *curve, struct spec_error *error)
-{
-	struct spec_output output;
-	char *text = NULL;
-	size_t size = 0;
-	FILE *memory = open_memstream(&text, &size);
-	enum spec_status status;
-
-	if (!memory)
-		return spec_error_set(error, SPEC_ENOMEM, "out of memory for a text");
-	status = spec_spd_write(memory, curve, error);
-	fclose(memory);
-	if (status == SPEC_OK)
-		status = spec_output_open(&output, job->settings.output, error);
-	if (status == SPEC_OK) {
-		status = spec_output_write(&output, text, size, error);
-		if (status == SPEC_OK)
-			status = spec_output_commit(&output, error);
-		else
-			spec_output_abandon(&output);
-	}
-	free(text);
-	return status;
-}
-
 /* A curve after --grid, --multiply and --scale. */
 static enum spec_status
 load_curve(const struct job *job, const char *name, struct spec_curve *curve,
@@ -426,7 +400,7 @@ convert_curves(struct job *job, int argc, char **argv, struct spec_error *error)
 	for (size_t i = 0; i < job->inputs && status == SPEC_OK; i++)
 		status = load_curve(job, job->input[i], &curve[i], error);
 	if (status == SPEC_OK)
-		status = text ? write_text(job, &curve[0], error)
+		status = text ? spec_spd_save(job->settings.output, &curve[0], error)
 			      : write_chart(job, curve, argc, argv, error);
 	for (size_t i = 0; curve && i < job->inputs; i++)
 		spec_curve_free(&curve[i]);
@@ -476,7 +450,7 @@ image_to_text(struct job *job, struct spec_reader *reader, struct spec_error *er
 			"specconvert -f spd");
 	status = spec_patches_curve(reader, &curve, error);
 	if (status == SPEC_OK)
-		status = write_text(job, &curve, error);
+		status = spec_spd_save(job->settings.output, &curve, error);
 	spec_curve_free(&curve);
 	return status;
 }

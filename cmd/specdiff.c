@@ -6,6 +6,7 @@
 #include "base/number.h"
 #include "cli/options.h"
 #include "cli/progress.h"
+#include "colour/observer.h"
 #include "compare/images.h"
 #include "spectrum/lookup.h"
 
@@ -125,9 +126,7 @@ take_option(struct job *job, const char *name, const char *value, struct spec_er
 		return spec_number_parse(
 			value, 1e-300, 1e300, "the peak", &job->peak, error);
 	if (strcmp(name, "observer") == 0)
-		job->observer = strcmp(value, "1931") == 0   ? "cmf/cie1931"
-				: strcmp(value, "1964") == 0 ? "cmf/cie1964"
-							     : value;
+		job->observer = spec_observer_spectrum(value);
 	else if (strcmp(name, "illuminant") == 0)
 		job->illuminant = value;
 	else
@@ -293,7 +292,8 @@ compare(struct job *job, struct spec_reader *reader[2], struct spec_images *resu
 int
 main(int argc, char **argv)
 {
-	struct job job = {.observer = "cmf/cie1931", .illuminant = "illuminants/D65"};
+	struct job job = {.observer = spec_observer_spectrum("1931"),
+		.illuminant = "illuminants/D65"};
 	struct spec_error error = {0};
 	struct spec_reader *reader[2] = {NULL, NULL};
 	struct spec_images result;

@@ -20,6 +20,14 @@ struct product {
 	double sum[3]; /* of each function over the whole table */
 };
 
+const char *
+spec_observer_spectrum(const char *name)
+{
+	if (strcmp(name, "1931") == 0)
+		return "cmf/cie1931";
+	return strcmp(name, "1964") == 0 ? "cmf/cie1964" : name;
+}
+
 static const char *
 title_of(const struct spec_curve *curve)
 {

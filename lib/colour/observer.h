@@ -20,6 +20,12 @@ struct spec_bands {
 };
 
 /*
+ * The name in spectra/ of an observer's colour-matching functions: that of the CIE's
+ * for "1931" and "1964"; any other name is itself.
+ */
+const char *spec_observer_spectrum(const char *name);
+
+/*
  * The weights of the bands for X, Y and Z.
  * Given:    observer    colour-matching functions xbar, ybar, zbar in its first three
  *                       columns, at equal steps (the CIE's tables: 1 nm)

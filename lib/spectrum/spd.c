@@ -8,6 +8,7 @@
 
 #include "base/memory.h"
 #include "base/number.h"
+#include "base/output.h"
 
 #define FIRST_COLUMN "wavelength_nm"
 #define BLANKS " \t"
@@ -522,4 +523,31 @@ spec_spd_write(FILE *file, const struct spec_curve *curve, struct spec_error *er
 		return spec_error_system(
 			error, errno ? errno : EIO, "unable to write the spectrum");
 	return SPEC_OK;
+}
+
+enum spec_status
+spec_spd_save(const char *path, const struct spec_curve *curve, struct spec_error *error)
+{
+	struct spec_output output;
+	char *text = NULL;
+	size_t size = 0;
+	FILE *memory = open_memstream(&text, &size);
+	enum spec_status status;
+
+	if (!memory)
+		return spec_error_set(error, SPEC_ENOMEM, "out of memory for a text");
+	status = spec_spd_write(memory, curve, error);
+	if (fclose(memory) != 0 && status == SPEC_OK)
+		status = spec_error_set(error, SPEC_ENOMEM, "out of memory for a text");
+	if (status == SPEC_OK)
+		status = spec_output_open(&output, path, error);
+	if (status == SPEC_OK) {
+		status = spec_output_write(&output, text, size, error);
+		if (status == SPEC_OK)
+			status = spec_output_commit(&output, error);
+		else
+			spec_output_abandon(&output);
+	}
+	free(text);
+	return status;
 }

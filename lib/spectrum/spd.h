@@ -35,6 +35,10 @@ enum spec_status spec_spd_load(
 enum spec_status spec_spd_write(
 	FILE *file, const struct spec_curve *curve, struct spec_error *error);
 
+/* As spec_spd_write, to the file at path, "-" for standard output: whole or not at all. */
+enum spec_status spec_spd_save(
+	const char *path, const struct spec_curve *curve, struct spec_error *error);
+
 /*
  * Writes value, finite, as decimal text with the fewest digits that read back as the same
  * double. text has room for SPEC_SPD_NUMBER bytes. Returns the length.
