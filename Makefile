@@ -8,12 +8,14 @@ CC = gcc
 CXX = g++
 AR = gcc-ar
 CFLAGS = -O3 -g
+CXXFLAGS = -O2 -g
 # libmvec and vectorised row kernels need both; NaN checks must keep working, so
 # -ffast-math is never used.
 MATHFLAGS = -fno-math-errno -fno-trapping-math -ffp-contract=off
-WARNFLAGS = -Wall -Wextra -Wshadow -Wpointer-arith -Wstrict-prototypes -Wvla \
-	-Wmissing-prototypes -Wwrite-strings
+WARNFLAGS = -Wall -Wextra -Wshadow -Wpointer-arith -Wvla -Wwrite-strings
+CWARNFLAGS = -Wstrict-prototypes -Wmissing-prototypes
 
+# 'make SAN=address,undefined TARGET' builds beside the ordinary build, in a folder of its own.
 ifneq ($(SAN),)
 comma = ,
 BUILD = build/san-$(subst $(comma),-,$(SAN))
@@ -23,94 +25,210 @@ BUILD = build
 SANFLAGS =
 endif
 
-# Rooms in order: one may include only what stands before it.
-ROOMS = base cli spectrum colour image compare
+# Debian packages that the build, the tests and the demo need beside gcc, make and git, and
+# those that only 'make lint' needs.
+DEPS = g++ pkg-config libopenexr-dev libdeflate-dev libpng-dev libopenimageio-dev \
+	libcmocka-dev bats openexr mandoc
+LINTDEPS = clang-format clang-tidy cppcheck shellcheck mandoc
+
 TOOLS = $(patsubst cmd/%.c,%,$(wildcard cmd/*.c))
 UNITS = $(patsubst tests/unit/%.c,%,$(wildcard tests/unit/*.c))
 BENCHES = $(patsubst tests/bench/%.c,%,$(wildcard tests/bench/*.c))
 HELPERS = $(patsubst tests/helper/%.c,%,$(wildcard tests/helper/*.c))
 PAGES = $(wildcard man/*.[157])
+SPECTRA = $(shell find spectra -name '*.spd')
 
-LIBSOURCES = $(foreach room,$(ROOMS),$(wildcard lib/$(room)/*.c))
+LIBSOURCES = $(wildcard lib/*/*.c)
 LIBOBJECTS = $(LIBSOURCES:%.c=$(BUILD)/obj/%.o)
 LIBRARY = $(BUILD)/libspectools.a
 PLUGIN = $(BUILD)/lib/spectools/pictures.so
+DATA = $(BUILD)/share/spectools/spectra
 PROGRAMS = $(TOOLS:%=$(BUILD)/bin/%)
 UNITTESTS = $(UNITS:%=$(BUILD)/tests/%)
 BENCHMARKS = $(BENCHES:%=$(BUILD)/tests/bench-%)
 TESTHELPERS = $(HELPERS:%=$(BUILD)/tests/%)
+FIGURES =
 
-# Debian packages that the build, the tests and the demo need beside gcc, make and git.
-DEPS = g++ pkg-config libopenexr-dev libdeflate-dev libpng-dev libopenimageio-dev \
-	libcmocka-dev bats
-
-# pkg-config's OpenEXR names all the C++ libraries; the C core is one of them.
+# pkg-config is asked inside recipes alone: 'make deps check' installs it on the way.
+# Its OpenEXR names all the C++ libraries; the C core is one of them.
 EXRFLAGS = $(shell pkg-config --cflags OpenEXR)
 EXRLIBS = -lOpenEXRCore-3_1
+OIIOFLAGS = $(shell pkg-config --cflags OpenImageIO)
+OIIOLIBS = $(shell pkg-config --libs OpenImageIO)
 CPPFLAGS = -Ilib -D_GNU_SOURCE -DSPEC_VERSION='"$(VERSION)"'
 LDLIBS = $(EXRLIBS) -ldeflate -lpng16 -ldl -pthread -lm
-ALLCFLAGS = -std=c11 $(CFLAGS) $(MATHFLAGS) $(WARNFLAGS) $(SANFLAGS) -pthread -fPIC
+ALLCFLAGS = -std=c11 $(CFLAGS) $(MATHFLAGS) $(WARNFLAGS) $(CWARNFLAGS) $(SANFLAGS) -pthread -fPIC
+ALLCXXFLAGS = -std=c++17 $(CXXFLAGS) $(MATHFLAGS) $(WARNFLAGS) $(SANFLAGS) -pthread -fPIC
 ALLLDFLAGS = $(SANFLAGS) $(LDFLAGS)
 
-all: $(PROGRAMS) $(PLUGIN) $(BUILD)/share/spectools/spectra
+# Where packages are installed in the same run, that comes before anything is compiled or run.
+READY = $(filter deps lint-deps,$(MAKECMDGOALS))
+ifneq ($(filter clean,$(MAKECMDGOALS)),)
+.NOTPARALLEL:
+endif
+
+all: $(PROGRAMS) $(PLUGIN) $(DATA)
 
 help:
 	@echo 'make deps       install what the build and the tests need (apt-get)'
 	@echo 'make            build the tools into build/bin'
 	@echo 'make demo       make a spectral test card, show it, compare two of its stages'
 	@echo 'make check      run every test; SAN=address,undefined runs them under sanitizers'
+	@echo 'make unit       run the unit tests alone'
 	@echo 'make bench      measure speed and memory beside peers'
 	@echo 'make figures    make the pictures of the gallery'
-	@echo 'make lint       clang-format, cppcheck, shellcheck, mandoc'
+	@echo 'make lint-deps  install what make lint needs (apt-get)'
+	@echo 'make lint       clang-format, cppcheck, clang-tidy, shellcheck, mandoc'
 	@echo 'make fuzz       fuzz the readers for FUZZ_SECONDS seconds (default 600)'
 	@echo 'make install    into PREFIX (default /usr/local), below DESTDIR'
 	@echo 'make uninstall  take it away again'
 	@echo 'make clean      remove build/'
 
-$(BUILD)/obj/%.o: %.c
+# Building. Two files record what the rest was made with: after other flags everything is
+# compiled anew, after another list of objects the library is made anew.
+
+FLAGS = $(CC) $(CXX) $(AR) $(ALLCFLAGS) $(ALLCXXFLAGS) $(CPPFLAGS) $(ALLLDFLAGS) $(LDLIBS)
+ifneq ($(strip $(file <$(BUILD)/flags)),$(strip $(FLAGS)))
+$(BUILD)/flags: FORCE
+endif
+ifneq ($(strip $(file <$(BUILD)/objects)),$(strip $(LIBOBJECTS)))
+$(BUILD)/objects: FORCE
+endif
+$(BUILD)/flags: RECORD = $(FLAGS)
+$(BUILD)/objects: RECORD = $(LIBOBJECTS)
+$(BUILD)/flags $(BUILD)/objects:
+	@mkdir -p $(@D)
+	@printf '%s\n' '$(subst ','\'',$(RECORD))' >$@
+
+$(BUILD)/obj/%.o: %.c $(BUILD)/flags | $(READY)
 	@mkdir -p $(@D)
 	$(CC) $(ALLCFLAGS) $(CPPFLAGS) $(EXRFLAGS) -MMD -MP -c -o $@ $<
 
-$(LIBRARY): $(LIBOBJECTS)
-	@rm -f $@
-	$(AR) rcs $@ $(LIBOBJECTS)
-
-$(BUILD)/bin/%: $(BUILD)/obj/cmd/%.o $(LIBRARY)
+$(BUILD)/obj/%.o: %.cpp $(BUILD)/flags | $(READY)
 	@mkdir -p $(@D)
-	$(CC) $(ALLLDFLAGS) -o $@ $^ $(LDLIBS)
+	$(CXX) $(ALLCXXFLAGS) $(CPPFLAGS) $(OIIOFLAGS) -MMD -MP -c -o $@ $<
+
+$(LIBRARY): $(LIBOBJECTS) $(BUILD)/objects
+	@rm -f $@
+	$(AR) qcs $@ $(LIBOBJECTS)
 
 # OpenImageIO costs 0.2 s at every start: it is loaded only when it is needed.
-$(PLUGIN): lib/image/pictures.cpp lib/image/pictures.h
+$(PLUGIN): $(BUILD)/obj/lib/image/pictures.o
 	@mkdir -p $(@D)
-	$(CXX) -std=c++17 -O2 -g -Wall -Wextra -fPIC -shared $(SANFLAGS) $(CPPFLAGS) \
-		$(shell pkg-config --cflags OpenImageIO) $(LDFLAGS) -o $@ $< \
-		$(shell pkg-config --libs OpenImageIO)
+	$(CXX) $(ALLLDFLAGS) -shared -o $@ $^ $(OIIOLIBS)
 
 # The tools find their data and plugin beside themselves, here as when installed.
-$(BUILD)/share/spectools/spectra:
+$(DATA):
 	@mkdir -p $(@D)
 	ln -sfn $(CURDIR)/spectra $@
 
-$(BUILD)/tests/bench-%: $(BUILD)/obj/tests/bench/%.o $(LIBRARY)
+LINK = $(CC) $(ALLLDFLAGS) -o $@ $^ $(LDLIBS)
+
+$(PROGRAMS): $(BUILD)/bin/%: $(BUILD)/obj/cmd/%.o $(LIBRARY)
 	@mkdir -p $(@D)
-	$(CC) $(ALLLDFLAGS) -o $@ $^ $(LDLIBS)
+	$(LINK)
 
 $(UNITTESTS): $(BUILD)/tests/%: $(BUILD)/obj/tests/unit/%.o $(LIBRARY)
 	@mkdir -p $(@D)
-	$(CC) $(ALLLDFLAGS) -o $@ $^ $(LDLIBS) -lcmocka
+	$(LINK) -lcmocka
+
+$(BENCHMARKS): $(BUILD)/tests/bench-%: $(BUILD)/obj/tests/bench/%.o $(LIBRARY)
+	@mkdir -p $(@D)
+	$(LINK)
 
 $(TESTHELPERS): $(BUILD)/tests/%: $(BUILD)/obj/tests/helper/%.o $(LIBRARY)
 	@mkdir -p $(@D)
-	$(CC) $(ALLLDFLAGS) -o $@ $^ $(LDLIBS)
+	$(LINK)
 
-unit: $(UNITTESTS) $(BUILD)/share/spectools/spectra
-	@for test in $(UNITTESTS); do $$test || exit 1; done
+# Running.
+
+check: all $(UNITTESTS) $(TESTHELPERS)
+	@tests/check $(BUILD) unit rooms bats
+
+unit: $(UNITTESTS) $(PLUGIN) $(DATA)
+	@tests/check $(BUILD) unit
+
+demo: all
+	@tests/demo $(BUILD)
+
+bench: all $(BENCHMARKS) $(TESTHELPERS)
+	@tests/bench/run $(BUILD)
+
+# A fragment adds its pictures to FIGURES and says how each is made.
+-include $(wildcard tests/figures/*.mk) tests/fuzz/fuzz.mk
+figures: $(FIGURES)
+
+# Looking at the source; each step stands alone, and lint is all of them.
+
+LINTS = lint-format lint-cppcheck lint-tidy lint-shell lint-man
+CODE = $(wildcard cmd/*.c lib/*/*.[ch] lib/*/*.cpp tests/*/*.[ch])
+SCRIPTS = $(shell grep -slE '^\#!.*(bash|bats)' .ci/* tests/* tests/*/*) $(wildcard tests/*/*.bash)
+
+lint: $(LINTS)
+
+lint-format: | $(READY)
+	clang-format --dry-run -Werror $(CODE)
+
+lint-cppcheck: | $(READY)
+	cppcheck -q --std=c11 --enable=warning,performance,portability --inline-suppr \
+		--error-exitcode=1 -Ilib $(filter-out %.h,$(CODE))
+
+# Besides findings clang-tidy only counts, and clang 14 does not know every CPU feature's name.
+lint-tidy: | $(READY)
+	@echo clang-tidy $(filter %.c,$(CODE))
+	@! printf '%s\n' $(filter %.c,$(CODE)) | xargs -P 2 -I FILE clang-tidy --quiet FILE -- \
+		-std=c11 $(CPPFLAGS) $(EXRFLAGS) '-D__builtin_cpu_supports(name)=1' 2>&1 | \
+		grep -vE '^[0-9]+ warnings?( and [0-9]+ errors?)? generated\.$$'
+
+lint-shell: | $(READY)
+	shellcheck $(SCRIPTS)
+
+lint-man: | $(READY)
+	mandoc -Tlint -W warning $(PAGES)
+
+# Installing. Below build/ everything but the pages already lies as it will be installed.
+
+FILES = $(TOOLS:%=bin/%) lib/spectools/pictures.so $(SPECTRA:%=share/spectools/%)
+MANUAL = $(foreach page,$(PAGES),share/man/man$(subst .,,$(suffix $(page)))/$(notdir $(page)))
+TO = $(DESTDIR)$(PREFIX)
+
+install: all
+	@for file in $(FILES); do \
+		case $$file in bin/*) mode=755 ;; *) mode=644 ;; esac; \
+		install -D -m $$mode "$(BUILD)/$$file" "$(TO)/$$file" || exit 1; \
+	done
+	@for file in $(MANUAL); do \
+		install -D -m 644 "man/$${file##*/}" "$(TO)/$$file" || exit 1; \
+	done
+
+uninstall:
+	@for file in $(FILES) $(MANUAL); do rm -f "$(TO)/$$file" || exit 1; done
+	@for folder in lib/spectools share/spectools; do \
+		[ ! -d "$(TO)/$$folder" ] || find "$(TO)/$$folder" -depth -type d -empty -delete; \
+	done
+
+# Packages: nothing is fetched when all are there.
+
+deps: PACKAGES = $(DEPS)
+lint-deps: PACKAGES = $(LINTDEPS)
+lint-deps: | $(filter deps,$(MAKECMDGOALS))
+deps lint-deps:
+	@there=$$(dpkg-query -W -f '$${db:Status-Status} $${Package}\n' $(PACKAGES) 2>/dev/null | \
+		grep '^installed ' | sort -u | wc -l); \
+	[ "$$there" -lt $(words $(PACKAGES)) ] || exit 0; \
+	sudo=; [ "$$(id -u)" = 0 ] || sudo=sudo; \
+	apt="$$sudo env DEBIAN_FRONTEND=noninteractive apt-get -q -y -o DPkg::Lock::Timeout=300"; \
+	command -v apt-get >/dev/null && command -v $${sudo:-env} >/dev/null && \
+		{ $$apt update; $$apt install --no-install-recommends $(PACKAGES); } || \
+	{ printf '%s\n' 'make $@: unable to install with apt-get; these packages are needed:' \
+		'$(PACKAGES)' >&2; exit 1; }
 
 clean:
 	rm -rf build
 
 -include $(shell find $(BUILD)/obj -name '*.d' 2>/dev/null)
 
-.PHONY: all help unit clean
+.PHONY: all help check unit demo bench figures fuzz lint $(LINTS) install uninstall deps \
+	lint-deps clean FORCE
 .SECONDARY:
 .DELETE_ON_ERROR:
