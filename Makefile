@@ -26,10 +26,12 @@ SANFLAGS =
 endif
 
 # Debian packages that the build, the tests and the demo need beside gcc, make and git, and
-# those that only 'make lint' needs.
+# those that only lint, bench and fuzz need.
 DEPS = g++ pkg-config libopenexr-dev libdeflate-dev libpng-dev libopenimageio-dev \
 	libcmocka-dev bats openexr mandoc
 LINTDEPS = clang-format clang-tidy cppcheck shellcheck mandoc
+BENCHDEPS = openimageio-tools
+FUZZDEPS = clang libclang-rt-14-dev
 
 TOOLS = $(patsubst cmd/%.c,%,$(wildcard cmd/*.c))
 UNITS = $(patsubst tests/unit/%.c,%,$(wildcard tests/unit/*.c))
@@ -62,7 +64,7 @@ ALLCXXFLAGS = -std=c++17 $(CXXFLAGS) $(MATHFLAGS) $(WARNFLAGS) $(SANFLAGS) -pthr
 ALLLDFLAGS = $(SANFLAGS) $(LDFLAGS)
 
 # Where packages are installed in the same run, that comes before anything is compiled or run.
-READY = $(filter deps lint-deps,$(MAKECMDGOALS))
+READY = $(filter deps %-deps,$(MAKECMDGOALS))
 ifneq ($(filter clean,$(MAKECMDGOALS)),)
 .NOTPARALLEL:
 endif
@@ -75,11 +77,12 @@ help:
 	@echo 'make demo       make a spectral test card, show it, compare two of its stages'
 	@echo 'make check      run every test; SAN=address,undefined runs them under sanitizers'
 	@echo 'make unit       run the unit tests alone'
-	@echo 'make bench      measure speed and memory beside peers'
+	@echo 'make bench      measure speed and memory beside peers; bench-deps installs the peers'
 	@echo 'make figures    make the pictures of the gallery'
 	@echo 'make lint-deps  install what make lint needs (apt-get)'
 	@echo 'make lint       clang-format, cppcheck, clang-tidy, shellcheck, mandoc'
-	@echo 'make fuzz       fuzz the readers for FUZZ_SECONDS seconds (default 600)'
+	@echo 'make fuzz       fuzz the readers for FUZZ_SECONDS seconds (default 600); fuzz-deps'
+	@echo '                installs what that needs'
 	@echo 'make install    into PREFIX (default /usr/local), below DESTDIR'
 	@echo 'make uninstall  take it away again'
 	@echo 'make clean      remove build/'
@@ -180,8 +183,9 @@ lint-tidy: | $(READY)
 		-std=c11 $(CPPFLAGS) $(EXRFLAGS) '-D__builtin_cpu_supports(name)=1' 2>&1 | \
 		grep -vE '^[0-9]+ warnings?( and [0-9]+ errors?)? generated\.$$'
 
+# bats sets $stderr, and a test of a pipe begins with cat.
 lint-shell: | $(READY)
-	shellcheck $(SCRIPTS)
+	shellcheck -e SC2154,SC2002 $(SCRIPTS)
 
 lint-man: | $(READY)
 	mandoc -Tlint -W warning $(PAGES)
@@ -211,8 +215,10 @@ uninstall:
 
 deps: PACKAGES = $(DEPS)
 lint-deps: PACKAGES = $(LINTDEPS)
-lint-deps: | $(filter deps,$(MAKECMDGOALS))
-deps lint-deps:
+bench-deps: PACKAGES = $(BENCHDEPS)
+fuzz-deps: PACKAGES = $(FUZZDEPS)
+lint-deps bench-deps fuzz-deps: | $(filter deps,$(MAKECMDGOALS))
+deps lint-deps bench-deps fuzz-deps:
 	@there=$$(dpkg-query -W -f '$${db:Status-Status} $${Package}\n' $(PACKAGES) 2>/dev/null | \
 		grep '^installed ' | sort -u | wc -l); \
 	[ "$$there" -lt $(words $(PACKAGES)) ] || exit 0; \
@@ -229,6 +235,6 @@ clean:
 -include $(shell find $(BUILD)/obj -name '*.d' 2>/dev/null)
 
 .PHONY: all help check unit demo bench figures fuzz lint $(LINTS) install uninstall deps \
-	lint-deps clean FORCE
+	lint-deps bench-deps fuzz-deps clean FORCE
 .SECONDARY:
 .DELETE_ON_ERROR:

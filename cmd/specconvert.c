@@ -337,28 +337,29 @@ load_curve(const struct job *job, const char *name, struct spec_curve *curve,
 	return status;
 }
 
+/* The patches' layout, where none was asked for: one row; on the first curve's own grid. */
 static enum spec_status
-write_chart(struct job *job, const struct spec_curve *curve, int argc, char **argv,
+write_chart(const struct job *job, const struct spec_curve *curve, int argc, char **argv,
 	struct spec_error *error)
 {
-	struct spec_patches_setup *patches = &job->patches;
+	struct spec_patches_setup patches = job->patches;
 	struct spec_grid own = {curve[0].wavelength_nm, curve[0].count};
 	struct spec_output output;
 	struct spec_image image;
 	enum spec_status status;
 
-	patches->grid = job->setup.grid ? job->setup.grid : &own;
-	if (patches->columns == 0) {
-		patches->columns = (int)job->inputs;
-		patches->rows = 1;
+	patches.grid = job->setup.grid ? job->setup.grid : &own;
+	if (patches.columns == 0) {
+		patches.columns = (int)job->inputs;
+		patches.rows = 1;
 	}
-	status = spec_patches_image(&image, curve, job->inputs, patches, error);
+	status = spec_patches_image(&image, curve, job->inputs, &patches, error);
 	if (status == SPEC_OK && job->settings.history)
 		status = spec_image_add_history(&image, argc, argv, error);
 	if (status == SPEC_OK)
 		status = spec_output_open(&output, job->settings.output, error);
 	if (status == SPEC_OK) {
-		status = spec_patches_write(&image, curve, job->inputs, patches, &output,
+		status = spec_patches_write(&image, curve, job->inputs, &patches, &output,
 			&job->settings, error);
 		if (status == SPEC_OK)
 			status = spec_output_commit(&output, error);

@@ -1,0 +1,115 @@
+# What the bats files share. A file begins with: load common (or ../tool/common) and has
+#   BIN    the folder of the tools, put first in PATH
+#   TESTS  the folder of the helper programs
+#   ROOT   the checkout
+# Each test runs in an empty folder of its own, $BATS_TEST_TMPDIR.
+# shellcheck shell=bash
+
+bats_require_minimum_version 1.5.0
+
+ROOT=${ROOT:-$(cd "${BASH_SOURCE[0]%/*}/../.." && pwd)}
+BIN=${BIN:-$ROOT/build/bin}
+TESTS=${TESTS:-$ROOT/build/tests}
+PATH=$BIN:$PATH
+export ROOT BIN TESTS PATH
+unset SPECTRA_PATH
+
+# A file that needs more says: setup() { in_own_folder; MORE; }
+in_own_folder() {
+  cd "$BATS_TEST_TMPDIR" || return 1
+}
+
+setup() {
+  in_own_folder
+}
+
+# complain TEXT...: one line each, shown when the test fails.
+complain() {
+  printf '%s\n' "$@" >&2
+  return 1
+}
+
+# fails_cleanly COMMAND...: exit status 2, one line on stderr that begins with the tool's name,
+# nothing on stdout. The line is left in $stderr. What goes in comes by <FILE.
+fails_cleanly() {
+  local name=${1##*/} out=$BATS_FILE_TMPDIR/stdout err=$BATS_FILE_TMPDIR/stderr
+  status=0 stderr=
+  "$@" >"$out" 2>"$err" || status=$?
+  stderr=$(tr -d '\0' <"$err")
+  [ "$status" -eq 2 ] || complain "exit $status instead of 2: $*" "$stderr" || return 1
+  [ ! -s "$out" ] || complain "$(wc -c <"$out") bytes on stdout: $*" || return 1
+  [ "$(wc -l <"$err")" -eq 1 ] || complain "not one line on stderr: $*" "$stderr" || return 1
+  case $stderr in
+  "$name: "?*) ;;
+  *) complain "stderr does not begin with '$name: ': $*" "$stderr" || return 1 ;;
+  esac
+}
+
+# no_leftovers FOLDER [FILE...]: there is nothing in it but these files, hidden ones included.
+no_leftovers() {
+  local folder=$1 found wanted
+  shift
+  found=$(cd "$folder" && find . -mindepth 1 -maxdepth 1 | sed 's,^\./,,' | sort)
+  wanted=$(printf '%s\n' "$@" | sort)
+  [ "$found" = "$wanted" ] || complain "in $folder:" "$found" "instead of:" "$wanted"
+}
+
+# samples: other programs' files are in $SAMPLES from here on; without them the test is skipped.
+samples() {
+  SAMPLES=$ROOT/../shared/samples
+  [ -d "$SAMPLES" ] || skip 'no ../shared/samples beside the checkout'
+}
+
+# spectral FILE ARGUMENT...: makes a test image with tests/helper/synthesize.
+spectral() {
+  local file=$1
+  shift
+  "$TESTS/synthesize" "$@" -o "$file"
+}
+
+# poke FILE OFFSET BYTES: puts bytes, written as printf has them, over those in a file.
+poke() {
+  # shellcheck disable=SC2059 # the format is what the caller means
+  printf "$3" | dd of="$1" bs=1 seek="$2" conv=notrunc status=none
+}
+
+# little BYTES NUMBER: a whole number as printf's escapes, lowest byte first.
+little() {
+  local count=$1 number=$2 i
+  for ((i = 0; i < count; i++)); do
+    printf '\\x%02x' $((number >> 8 * i & 255))
+  done
+}
+
+# attribute_at FILE NAME TYPE: where the value of an EXR attribute begins.
+attribute_at() {
+  local at
+  at=$(LC_ALL=C grep -aboP "(?<![A-Za-z])$2\\x00$3\\x00" "$1" | head -n 1)
+  [ -n "$at" ] || complain "$1 has no attribute '$2' of type '$3'" || return 1
+  echo $((${at%%:*} + ${#2} + ${#3} + 6))
+}
+
+# table_at FILE LINES BYTES: where the chunk table of an uncompressed file of scanlines begins.
+# BYTES: of a line. The header is as long where the same image is compressed.
+table_at() {
+  echo $(($(wc -c <"$1") - $2 * (16 + $3)))
+}
+
+# reverse_lines FROM TO LINES BYTES: the same uncompressed image with its last line first in the
+# file, and a header that says so.
+reverse_lines() {
+  local from=$1 to=$2 lines=$3 chunk=$(($4 + 8)) table first y
+  table=$(table_at "$from" "$lines" "$4")
+  first=$((table + 8 * lines))
+  {
+    head -c "$table" "$from"
+    for ((y = 0; y < lines; y++)); do
+      # shellcheck disable=SC2059 # made of escapes
+      printf "$(little 8 $((first + (lines - 1 - y) * chunk)))"
+    done
+    for ((y = lines - 1; y >= 0; y--)); do
+      tail -c +$((first + y * chunk + 1)) "$from" | head -c "$chunk"
+    done
+  } >"$to"
+  poke "$to" "$(attribute_at "$to" lineOrder lineOrder)" '\x01'
+}
