@@ -146,7 +146,7 @@ $(TESTHELPERS): $(BUILD)/tests/%: $(BUILD)/obj/tests/helper/%.o $(LIBRARY)
 # Running.
 
 check: all $(UNITTESTS) $(TESTHELPERS)
-	@tests/check $(BUILD) unit rooms bats
+	@tests/check $(BUILD) unit rooms bats pages
 
 unit: $(UNITTESTS) $(PLUGIN) $(DATA)
 	@tests/check $(BUILD) unit

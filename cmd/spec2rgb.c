@@ -23,11 +23,12 @@ static const struct cli_option options[] = {
 };
 
 static const struct cli_program program = {
-	"spec2rgb",
-	"[OPTION]... [FILE]",
-	"Show a spectral image as an sRGB picture: PNG, PPM, EXR by the suffix of -o,\n"
-	"any other format through OpenImageIO.",
-	options,
+	.name = "spec2rgb",
+	.arguments = "[OPTION]... [FILE]",
+	.summary =
+		"Show a spectral image as an sRGB picture: PNG, PPM, EXR by the suffix of -o,\n"
+		"any other format through OpenImageIO.",
+	.options = options,
 };
 
 struct job {
@@ -83,7 +84,7 @@ parse(struct cli *cli, struct job *job, struct spec_error *error)
 
 /* The sums that the options ask for. */
 static enum spec_status
-plan(const struct job *job, const struct spec_image *image, struct spec_rgb *rgb,
+plan(const struct job *job, const struct spec_reader *reader, struct spec_rgb *rgb,
 	struct spec_error *error)
 {
 	struct spec_curve observer = {0}, illuminant = {0};
@@ -97,8 +98,11 @@ plan(const struct job *job, const struct spec_image *image, struct spec_rgb *rgb
 		status = spec_lookup_curve(job->illuminant, &illuminant, error);
 	if (status == SPEC_OK)
 		status = spec_adaptation_find(job->adapt, &setup.adaptation, error);
-	if (status == SPEC_OK)
-		status = spec_rgb_plan(rgb, image, &setup, error);
+	if (status == SPEC_OK) {
+		status = spec_rgb_plan(rgb, spec_reader_image(reader), &setup, error);
+		if (status != SPEC_OK)
+			spec_error_prefix(error, "%s", spec_reader_name(reader));
+	}
 	spec_curve_free(&observer);
 	spec_curve_free(&illuminant);
 	return status;
@@ -114,8 +118,10 @@ warn(const struct cli *cli, const struct job *job, const char *name,
 		cli_warn(cli, "%s: %.1f %% of the luminance lies outside its bands", name,
 			100 * rgb->outside);
 	if (develop->nonfinite > 0)
-		cli_warn(cli, "%s: %lld pixels are not finite, the first at %d,%d", name,
-			develop->nonfinite, develop->first_x, develop->first_y);
+		cli_warn(cli, "%s: %lld %s not finite, the first at %d,%d", name,
+			develop->nonfinite,
+			develop->nonfinite == 1 ? "pixel is" : "pixels are",
+			develop->first_x, develop->first_y);
 }
 
 static enum spec_status
@@ -167,9 +173,7 @@ main(int argc, char **argv)
 
 	status = spec_reader_open(&reader, job.input, &job.settings, &error);
 	cli_check(&cli, status, &error);
-	status = plan(&job, spec_reader_image(reader), &rgb, &error);
-	if (status != SPEC_OK)
-		spec_error_prefix(&error, "%s", spec_reader_name(reader));
+	status = plan(&job, reader, &rgb, &error);
 	cli_check(&cli, status, &error);
 
 	status = develop(&job, reader, &rgb, &seen, &error);

@@ -40,11 +40,13 @@ static const struct cli_option options[] = {
 };
 
 static const struct cli_program program = {
-	"specconvert",
-	"[OPTION]... [FILE|SPD]...",
-	"Change the grid, values or extent of a spectral image or of curves, and turn\n"
-	"one into the other.",
-	options,
+	.name = "specconvert",
+	.arguments = "[OPTION]... [FILE|SPD]...",
+	.summary =
+		"Change the grid, values or extent of a spectral image or of curves, and turn\n"
+		"one into the other.",
+	.options = options,
+	.writes_images = 1,
 };
 
 struct job {
@@ -145,6 +147,10 @@ take_band(struct job *job, const char *text, struct spec_error *error)
 	job->bands.wavelength_nm = list;
 	if (status != SPEC_OK)
 		return status;
+	for (size_t i = 0; i < job->bands.count; i++) {
+		if (job->bands.wavelength_nm[i] == wavelength_nm)
+			return SPEC_OK;
+	}
 	job->bands.wavelength_nm[job->bands.count++] = wavelength_nm;
 	qsort(list, job->bands.count, sizeof(double), compare_numbers);
 	return SPEC_OK;
@@ -296,14 +302,33 @@ is_curve(const char *path)
 	return access(path, F_OK) != 0 && path[0] != '/' && path[0] != '.';
 }
 
-static int
-wants_text(const struct job *job, int input_is_text)
+/* The suffix of a path's last component with its dot, or "". */
+static const char *
+suffix_of(const char *path)
 {
+	const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
+	const char *dot = strrchr(name, '.');
+
+	return dot && dot > name ? dot : "";
+}
+
+/* Whether the output is text: as --format or the suffix says, else as the input is. */
+static enum spec_status
+settle_format(struct job *job, int input_is_text, struct spec_error *error)
+{
+	const char *output = job->settings.output, *suffix = suffix_of(output);
+
 	if (job->text >= 0)
-		return job->text;
-	if (strcmp(job->settings.output, "-") == 0 || !strchr(job->settings.output, '.'))
-		return input_is_text && job->patches.columns == 0;
-	return is_text_name(job->settings.output);
+		return SPEC_OK;
+	job->text = input_is_text && job->patches.columns == 0;
+	if (strcmp(output, "-") == 0 || !*suffix || strncmp(output, "/dev/", 5) == 0)
+		return SPEC_OK;
+	job->text = strcasecmp(suffix, ".spd") == 0 || strcasecmp(suffix, ".txt") == 0;
+	if (!job->text && strcasecmp(suffix, ".exr") != 0)
+		return spec_error_set(error, SPEC_EUSAGE,
+			"unable to write '%s': no format for '%s' (.exr .spd .txt, or --format)",
+			output, suffix);
+	return SPEC_OK;
 }
 
 /* A curve after --grid, --multiply and --scale. */
@@ -371,14 +396,14 @@ write_chart(const struct job *job, const struct spec_curve *curve, int argc, cha
 }
 
 static enum spec_status
-check_curve_options(const struct job *job, int text, struct spec_error *error)
+check_curve_options(const struct job *job, struct spec_error *error)
 {
 	if (job->setup.has_crop || job->setup.downsample > 1 || job->setup.bands ||
 		job->setup.illuminate)
 		return spec_error_set(error, SPEC_EUSAGE,
 			"--crop, --downsample, --band and --illuminate are for images, not "
 			"for curves");
-	if (text && job->inputs > 1)
+	if (job->text && job->inputs > 1)
 		return spec_error_set(error, SPEC_EUSAGE,
 			"one curve at a time, or an image of them (--patches, or -o "
 			"FILE.exr)");
@@ -390,10 +415,11 @@ check_curve_options(const struct job *job, int text, struct spec_error *error)
 static enum spec_status
 convert_curves(struct job *job, int argc, char **argv, struct spec_error *error)
 {
-	int text = wants_text(job, 1);
-	enum spec_status status = check_curve_options(job, text, error);
+	enum spec_status status = settle_format(job, 1, error);
 	struct spec_curve *curve;
 
+	if (status == SPEC_OK)
+		status = check_curve_options(job, error);
 	if (status != SPEC_OK)
 		return status;
 	curve = spec_memory_new(job->inputs, sizeof *curve, "curves", error);
@@ -401,8 +427,8 @@ convert_curves(struct job *job, int argc, char **argv, struct spec_error *error)
 	for (size_t i = 0; i < job->inputs && status == SPEC_OK; i++)
 		status = load_curve(job, job->input[i], &curve[i], error);
 	if (status == SPEC_OK)
-		status = text ? spec_spd_save(job->settings.output, &curve[0], error)
-			      : write_chart(job, curve, argc, argv, error);
+		status = job->text ? spec_spd_save(job->settings.output, &curve[0], error)
+				   : write_chart(job, curve, argc, argv, error);
 	for (size_t i = 0; curve && i < job->inputs; i++)
 		spec_curve_free(&curve[i]);
 	free(curve);
@@ -469,8 +495,10 @@ convert_image(struct job *job, int argc, char **argv, struct spec_error *error)
 	if (job->patches.columns > 0)
 		return spec_error_set(error, SPEC_EUSAGE,
 			"--patches is for curves, '%s' is an image", job->input[0]);
-	status = spec_reader_open(&reader, job->input[0], &job->settings, error);
-	if (status == SPEC_OK && wants_text(job, 0)) {
+	status = settle_format(job, 0, error);
+	if (status == SPEC_OK)
+		status = spec_reader_open(&reader, job->input[0], &job->settings, error);
+	if (status == SPEC_OK && job->text) {
 		status = image_to_text(job, reader, error);
 	} else if (status == SPEC_OK) {
 		status = spec_convert_plan(&convert, spec_reader_image(reader), &job->setup,

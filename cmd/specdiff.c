@@ -1,9 +1,11 @@
 /* specdiff - how far apart two spectral images are; see specdiff(1). */
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/number.h"
+#include "base/output.h"
 #include "cli/options.h"
 #include "cli/progress.h"
 #include "colour/observer.h"
@@ -26,11 +28,12 @@ static const struct cli_option options[] = {
 };
 
 static const struct cli_program program = {
-	"specdiff",
-	"[OPTION]... FILE1 FILE2",
-	"Tell how far apart two spectral images are. Exit status: 0 the same (or within\n"
-	"the tolerances), 1 different, 2 trouble.",
-	options,
+	.name = "specdiff",
+	.arguments = "[OPTION]... FILE1 FILE2",
+	.summary =
+		"Tell how far apart two spectral images are. Exit status: 0 the same (or within\n"
+		"the tolerances), 1 different, 2 trouble.",
+	.options = options,
 };
 
 struct metric {
@@ -154,18 +157,36 @@ parse(struct cli *cli, struct job *job, struct spec_error *error)
 		cli_usage(cli, "only one of the images can come from standard input");
 }
 
+/* The largest difference of whole numbers, as they are. */
+static double
+whole_max(const struct spec_whole *whole)
+{
+	return fabs((double)whole->a - (double)whole->b);
+}
+
+/* The largest difference in any channel. */
+static double
+max_of(const struct spec_images *result)
+{
+	double most = whole_max(&result->whole);
+
+	if (result->bands > 0)
+		most = fmax(most, spec_measure_max(&result->spectral));
+	if (result->others.samples > 0)
+		most = fmax(most, spec_measure_max(&result->others));
+	return most;
+}
+
 static double
 value_of(const struct spec_images *result, size_t index, double peak)
 {
 	const struct spec_measure *spectral = &result->spectral;
-	double others = result->other_count > 0 ? spec_measure_max(&result->others) : 0;
-	double most = result->bands > 0 ? spec_measure_max(spectral) : 0;
 
 	switch (index) {
 	case 0:
 		return result->bands > 0 ? spec_measure_rmse(spectral) : 0;
 	case 1:
-		return most > others ? most : others;
+		return max_of(result);
 	case 2:
 		return spec_measure_angle_mean(spectral);
 	case 3:
@@ -191,42 +212,68 @@ applies(const struct spec_images *result, size_t index)
 	return result->bands > 0 || index <= 1;
 }
 
-/* Where the largest difference of the measure is, and between what. */
 static void
-print_place(const struct spec_images *result, const struct spec_image *image)
+print_name(FILE *report, const struct spec_image *image, size_t channel)
 {
-	const struct spec_measure *worst = &result->spectral;
+	char name[256];
 
-	if (result->other_count > 0 &&
-		spec_measure_max(&result->others) >
-			(result->bands > 0 ? spec_measure_max(worst) : 0))
-		worst = &result->others;
-	if (worst->nonfinite > 0)
-		printf(" at %zu,%d in '%s': %.9g and %.9g, the first of %llu that are not "
-		       "finite",
-			worst->nonfinite_first.x, worst->nonfinite_first.y,
-			image->channel[worst->nonfinite_first.band].name,
-			worst->nonfinite_a, worst->nonfinite_b,
-			(unsigned long long)worst->nonfinite);
-	else if (worst->difference.value > 0)
-		printf(" at %zu,%d in '%s': %.9g and %.9g", worst->difference.place.x,
-			worst->difference.place.y,
-			image->channel[worst->difference.place.band].name,
-			worst->difference_a, worst->difference_b);
+	snprintf(name, sizeof name, "%s", image->channel[channel].name);
+	spec_error_plain(name);
+	fprintf(report, "'%s'", name);
 }
 
 static void
-print_pixel(const struct spec_measure_extreme *extreme, double least)
+print_sample(FILE *report, const struct spec_image *image, const struct spec_measure *worst)
 {
-	if (extreme->value > least)
-		printf(" at %zu,%d", extreme->place.x, extreme->place.y);
+	if (worst->nonfinite > 0) {
+		fprintf(report, " at %zu,%d in ", worst->nonfinite_first.x,
+			worst->nonfinite_first.y);
+		print_name(report, image, worst->nonfinite_first.band);
+		fprintf(report, ": %.9g and %.9g, the first of %llu that are not finite",
+			worst->nonfinite_a, worst->nonfinite_b,
+			(unsigned long long)worst->nonfinite);
+	} else if (worst->difference.value > 0) {
+		fprintf(report, " at %zu,%d in ", worst->difference.place.x,
+			worst->difference.place.y);
+		print_name(report, image, worst->difference.place.band);
+		fprintf(report, ": %.9g and %.9g", worst->difference_a,
+			worst->difference_b);
+	}
+}
+
+/* Where the largest difference is, and between what. */
+static void
+print_place(FILE *report, const struct spec_images *result, const struct spec_image *image)
+{
+	const struct spec_whole *whole = &result->whole;
+	double most = max_of(result);
+
+	if (whole->differing > 0 && whole_max(whole) == most) {
+		fprintf(report, " at %zu,%d in ", whole->x, whole->y);
+		print_name(report, image, whole->channel);
+		fprintf(report, ": %u and %u", whole->a, whole->b);
+	} else if (result->others.samples > 0 &&
+		   spec_measure_max(&result->others) == most) {
+		print_sample(report, image, &result->others);
+	} else if (result->bands > 0) {
+		print_sample(report, image, &result->spectral);
+	}
+}
+
+static void
+print_pixel(FILE *report, const struct spec_measure_extreme *extreme)
+{
+	if (extreme->value > 0)
+		fprintf(report, " at %zu,%d", extreme->place.x, extreme->place.y);
 }
 
 static int
-print_metrics(const struct job *job, const struct spec_images *result,
+print_metrics(FILE *report, const struct job *job, const struct spec_images *result,
 	const struct spec_image *image)
 {
-	int different = 0;
+	/* What is not finite on one side, and another id, are beyond any tolerance. */
+	int different = result->spectral.nonfinite > 0 || result->others.nonfinite > 0 ||
+			result->whole.differing > 0;
 
 	for (size_t i = 0; i < METRICS; i++) {
 		double value;
@@ -243,14 +290,16 @@ print_metrics(const struct job *job, const struct spec_images *result,
 						       : value <= job->tolerance[i]);
 		different |= beyond;
 		if (!job->any_chosen || job->chosen[i]) {
-			printf("%-10s %.6g%s", metrics[i].name, value, metrics[i].unit);
+			fprintf(report, "%-10s %.6g%s", metrics[i].name, value,
+				metrics[i].unit);
 			if (i == 1)
-				print_place(result, image);
+				print_place(report, result, image);
 			else if (i == 3)
-				print_pixel(&result->spectral.angle_most, 0);
+				print_pixel(report, &result->spectral.angle_most);
 			else if (i == 8)
-				print_pixel(&result->spectral.colour_most, 0);
-			printf(beyond ? " (beyond %g)\n" : "\n", job->tolerance[i]);
+				print_pixel(report, &result->spectral.colour_most);
+			fprintf(report, beyond ? " (beyond %g)\n" : "\n",
+				job->tolerance[i]);
 		}
 	}
 	if (!job->any_judged)
@@ -265,16 +314,17 @@ compare(struct job *job, struct spec_reader *reader[2], struct spec_images *resu
 	struct spec_curve observer = {0}, illuminant = {0};
 	struct spec_images_setup setup = {.exposure = job->exposure, .peak = job->peak};
 	enum spec_status status = SPEC_OK;
-	int colour = !job->any_chosen;
+	int named = 0; /* a colour difference was asked for */
 
 	setup.want_angle = !job->any_chosen;
 	for (size_t i = 0; i < METRICS; i++) {
-		colour |= metrics[i].colour && (job->chosen[i] || job->judged[i]);
-		setup.want_angle |=
-			metrics[i].angular && (job->chosen[i] || job->judged[i]);
+		int asked = job->chosen[i] || job->judged[i];
+
+		named |= metrics[i].colour && asked;
+		setup.want_angle |= metrics[i].angular && asked;
 	}
-	setup.colour_optional = !job->any_chosen && !job->any_judged;
-	if (colour) {
+	setup.colour_optional = !named;
+	if (named || !job->any_chosen) {
 		status = spec_lookup_curve(job->observer, &observer, error);
 		if (status == SPEC_OK)
 			status = spec_lookup_curve(job->illuminant, &illuminant, error);
@@ -289,6 +339,31 @@ compare(struct job *job, struct spec_reader *reader[2], struct spec_images *resu
 	return status;
 }
 
+/* The report appears whole or not at all; *different is what it says. */
+static enum spec_status
+print_report(const struct job *job, const struct spec_images *result,
+	const struct spec_image *image, int *different, struct spec_error *error)
+{
+	char *text = NULL;
+	size_t size = 0;
+	FILE *report = open_memstream(&text, &size);
+	enum spec_status status;
+
+	if (!report)
+		return spec_error_set(error, SPEC_ENOMEM, "out of memory for a report");
+	fputs(result->structure, report);
+	*different = result->structure[0] != '\0';
+	if (result->comparable)
+		*different |= print_metrics(report, job, result, image);
+	if (fclose(report) != 0) {
+		free(text);
+		return spec_error_set(error, SPEC_ENOMEM, "out of memory for a report");
+	}
+	status = spec_output_save(job->settings.output, text, size, error);
+	free(text);
+	return status;
+}
+
 int
 main(int argc, char **argv)
 {
@@ -299,7 +374,7 @@ main(int argc, char **argv)
 	struct spec_images result;
 	struct cli_progress progress;
 	enum spec_status status;
-	int different;
+	int different = 0;
 	struct cli cli;
 
 	cli_start(&cli, &program, argc, argv);
@@ -316,11 +391,11 @@ main(int argc, char **argv)
 	cli_progress_end(&progress);
 	cli_check(&cli, status, &error);
 
-	different = result.structure[0] != '\0';
-	fputs(result.structure, stdout);
-	if (result.comparable)
-		different |= print_metrics(&job, &result, spec_reader_image(reader[0]));
+	cli_check(&cli,
+		print_report(
+			&job, &result, spec_reader_image(reader[0]), &different, &error),
+		&error);
 	spec_reader_close(reader[0]);
 	spec_reader_close(reader[1]);
-	return cli_finish(&cli, different ? EXIT_DIFFERENT : 0);
+	return different ? EXIT_DIFFERENT : 0;
 }

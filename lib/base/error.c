@@ -5,12 +5,13 @@
 #include <stdio.h>
 #include <string.h>
 
-static void
-replace_line_breaks(char *message)
+void
+spec_error_plain(char *text)
 {
-	for (; *message; message++)
-		if ((unsigned char)*message < ' ' || *message == 127)
-			*message = '?';
+	for (; *text; text++) {
+		if ((unsigned char)*text < ' ' || *text == 127)
+			*text = '?';
+	}
 }
 
 enum spec_status
@@ -24,7 +25,7 @@ spec_error_set(struct spec_error *error, enum spec_status status, const char *fo
 	va_start(arguments, format);
 	vsnprintf(error->message, sizeof error->message, format, arguments);
 	va_end(arguments);
-	replace_line_breaks(error->message);
+	spec_error_plain(error->message);
 	return status;
 }
 
@@ -44,7 +45,7 @@ spec_error_system(struct spec_error *error, int errnum, const char *format, ...)
 	length = strlen(error->message);
 	snprintf(error->message + length, sizeof error->message - length, ": %s",
 		strerror(errnum));
-	replace_line_breaks(error->message);
+	spec_error_plain(error->message);
 	return status;
 }
 
@@ -63,6 +64,6 @@ spec_error_prefix(struct spec_error *error, const char *format, ...)
 	va_end(arguments);
 	length = strlen(error->message);
 	snprintf(error->message + length, sizeof error->message - length, ": %s", old);
-	replace_line_breaks(error->message);
+	spec_error_plain(error->message);
 	return error->status;
 }

@@ -21,6 +21,9 @@ struct spec_error {
 	char message[1024]; /* one line, lower case, no full stop */
 };
 
+/* Replaces line breaks and other control characters: names in files may hold anything. */
+void spec_error_plain(char *text);
+
 /* A null error is allowed: the status is still returned. */
 enum spec_status spec_error_set(struct spec_error *error, enum spec_status status,
 	const char *format, ...) __attribute__((format(printf, 3, 4)));

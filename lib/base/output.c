@@ -2,6 +2,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,6 +11,7 @@
 
 #include "base/memory.h"
 
+#define MOST_LINKS 40        /* as the kernel has it */
 #define PIPE_BYTES (1 << 20) /* a larger pipe halves the number of switches */
 
 static void
@@ -84,10 +86,56 @@ open_beside(struct spec_output *output, mode_t mode, struct spec_error *error)
 			return spec_error_system(
 				error, failure, "unable to create '%s'", output->path);
 		}
-		(void)fchmod(output->fd, mode);
 	}
+	(void)fchmod(
+		output->fd, mode); /* the umask has taken bits of a mode that is kept */
 	output->seekable = 1;
 	return SPEC_OK;
+}
+
+/* The link's text as a path: beside the link, where it is relative. */
+static char *
+follow(const char *link, struct spec_error *error)
+{
+	char text[PATH_MAX], *path, *folder;
+	ssize_t length = readlink(link, text, sizeof text - 1);
+
+	if (length < 0) {
+		spec_error_system(error, errno, "unable to read '%s'", link);
+		return NULL;
+	}
+	text[length] = '\0';
+	folder = text[0] == '/' ? spec_memory_text("", 0, error) : folder_of(link, error);
+	if (!folder)
+		return NULL;
+	path = spec_memory_new(
+		strlen(folder) + (size_t)length + 1, 1, "bytes of a path", error);
+	if (path)
+		sprintf(path, "%s%s", folder, text);
+	free(folder);
+	return path;
+}
+
+/* The target is what the path's symbolic links lead to, there or not. */
+static enum spec_status
+resolve(struct spec_output *output, struct spec_error *error)
+{
+	struct stat status;
+
+	output->target = spec_memory_text(output->path, strlen(output->path), error);
+	for (int links = 0; output->target && links < MOST_LINKS; links++) {
+		char *next;
+
+		if (lstat(output->target, &status) != 0 || !S_ISLNK(status.st_mode))
+			return SPEC_OK;
+		next = follow(output->target, error);
+		free(output->target);
+		output->target = next;
+	}
+	if (!output->target)
+		return SPEC_EIO;
+	return spec_error_set(
+		error, SPEC_EIO, "unable to write '%s': too many links", output->path);
 }
 
 /* What lies at path decides: a regular file or nothing is replaced, all else is written to. */
@@ -96,6 +144,7 @@ open_named(struct spec_output *output, struct spec_error *error)
 {
 	struct stat status;
 	mode_t mask = umask(0);
+	enum spec_status resolved;
 
 	umask(mask);
 	if (stat(output->path, &status) == 0 && !S_ISREG(status.st_mode)) {
@@ -109,21 +158,15 @@ open_named(struct spec_output *output, struct spec_error *error)
 		output->terminal = isatty(output->fd);
 		return SPEC_OK;
 	}
-	if (lstat(output->path, &status) == 0) {
-		if (access(output->path, W_OK) != 0 && errno != ENOENT)
-			return spec_error_system(
-				error, errno, "unable to write '%s'", output->path);
-		output->target = realpath(output->path, NULL); /* through a symbolic link */
-		if (!output->target)
-			return spec_error_system(
-				error, errno, "unable to create '%s'", output->path);
-		if (stat(output->target, &status) == 0)
-			return open_beside(output, status.st_mode & 0777, error);
-	} else {
-		output->target =
-			spec_memory_text(output->path, strlen(output->path), error);
-	}
-	return output->target ? open_beside(output, 0666 & ~mask, error) : SPEC_ENOMEM;
+	if (access(output->path, W_OK) != 0 && errno != ENOENT)
+		return spec_error_system(
+			error, errno, "unable to write '%s'", output->path);
+	resolved = resolve(output, error);
+	if (resolved != SPEC_OK)
+		return resolved;
+	if (stat(output->target, &status) == 0)
+		return open_beside(output, status.st_mode & 0777, error);
+	return open_beside(output, 0666 & ~mask, error);
 }
 
 enum spec_status
@@ -255,6 +298,21 @@ spec_output_abandon(struct spec_output *output)
 			(void)close(output->fd);
 	}
 	clear(output);
+}
+
+enum spec_status
+spec_output_save(const char *path, const void *data, size_t size, struct spec_error *error)
+{
+	struct spec_output output;
+	enum spec_status status = spec_output_open(&output, path, error);
+
+	if (status != SPEC_OK)
+		return status;
+	status = spec_output_write(&output, data, size, error);
+	if (status == SPEC_OK)
+		return spec_output_commit(&output, error);
+	spec_output_abandon(&output);
+	return status;
 }
 
 int

@@ -44,6 +44,10 @@ enum spec_status spec_output_commit(struct spec_output *output, struct spec_erro
 /* Drops what was written, as far as that can be done. Harmless after commit. */
 void spec_output_abandon(struct spec_output *output);
 
+/* Opens, writes and commits: a whole output at once. */
+enum spec_status spec_output_save(
+	const char *path, const void *data, size_t size, struct spec_error *error);
+
 /* A nameless temporary file in TMPDIR, else /tmp; its descriptor, or -1 with the error set. */
 int spec_output_scratch(struct spec_error *error);
 

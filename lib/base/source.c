@@ -68,20 +68,21 @@ int
 spec_source_peek(const char *path)
 {
 	int standard = strcmp(path, "-") == 0;
-	/* A descriptor of ours opens again without harm; a named FIFO would lose its writer. */
 	int shared = standard || strncmp(path, "/dev/", 5) == 0 ||
 		     strncmp(path, "/proc/self/fd/", 14) == 0;
-	int fd = standard ? STDIN_FILENO
-			  : open(path, O_RDONLY | O_CLOEXEC | (shared ? 0 : O_NONBLOCK));
 	struct stat status;
 	unsigned char byte;
-	int result = -1;
+	int fd, result = -1;
 
+	/* A named FIFO that is opened and closed again loses its writer. */
+	if (!shared && (stat(path, &status) < 0 || !S_ISREG(status.st_mode)))
+		return -1;
+	fd = standard ? STDIN_FILENO : open(path, O_RDONLY | O_CLOEXEC);
 	if (fd >= 0 && fstat(fd, &status) == 0) {
 		if (S_ISREG(status.st_mode) &&
 			pread(fd, &byte, 1, standard ? lseek(fd, 0, SEEK_CUR) : 0) == 1)
 			result = byte;
-		else if (shared && S_ISFIFO(status.st_mode))
+		else if (S_ISFIFO(status.st_mode))
 			result = peek_pipe(fd);
 	}
 	if (fd > STDIN_FILENO)

@@ -10,21 +10,40 @@
 #define LONGEST_NAME 32
 #define HELP_COLUMN 28
 
-const struct cli_option cli_common_options[] = {
+static const struct cli_option common_options[] = {
 	{'o', "output", "FILE", "write FILE (default: standard output)"},
 	{'j', "threads", "N", "use N threads (default: all processors)"},
 	{0, "part", "N|NAME", "which part of a file with several"},
-	{0, "compression", "NAME",
-		"none rle zips zip piz pxr24 b44 b44a\n(default: zip, to a pipe none)"},
-	{0, "half", NULL, "store 16-bit floats"},
 	{0, "limit", "NAME=VALUE", "raise or lower a limit: pixels channels header memory"},
-	{0, "no-history", NULL, "do not record this command in the output"},
 	{0, "progress", NULL, "show progress even when stderr is no terminal"},
 	{'q', "quiet", NULL, "no warnings, no progress"},
 	{'h', "help", NULL, "show this text"},
 	{'V', "version", NULL, "show the version"},
 	{0},
 };
+
+static const struct cli_option image_options[] = {
+	{0, "compression", "NAME",
+		"none rle zips zip piz pxr24 b44 b44a\n(default: zip, to a pipe none)"},
+	{0, "half", NULL, "store bands as 16-bit floats"},
+	{0, "no-history", NULL, "do not record this command in the output"},
+	{0},
+};
+
+static const struct cli_option no_options[] = {{0}};
+
+/* The tables that a program's options stand in, its own first. */
+enum { TABLES = 3 };
+
+static const struct cli_option *
+table(const struct cli_program *program, int index)
+{
+	if (index == 0)
+		return program->options;
+	if (index == 1)
+		return program->writes_images ? image_options : no_options;
+	return common_options;
+}
 
 void
 cli_start(struct cli *cli, const struct cli_program *program, int argc, char **argv)
@@ -60,11 +79,13 @@ print_help(const struct cli *cli)
 	const struct cli_program *program = cli->program;
 
 	printf("usage: %s %s\n%s\n\n", program->name, program->arguments, program->summary);
-	for (const struct cli_option *option = program->options; option->name; option++)
-		print_option(option);
-	printf("\n");
-	for (const struct cli_option *option = cli_common_options; option->name; option++)
-		print_option(option);
+	for (int i = 0; i < TABLES; i++) {
+		for (const struct cli_option *option = table(program, i); option->name;
+			option++)
+			print_option(option);
+		if (i == 0)
+			printf("\n");
+	}
 	exit(cli_finish(cli, 0));
 }
 
@@ -129,8 +150,8 @@ unknown_option(const struct cli *cli, const char *name)
 	const char *best = NULL;
 	int least = (int)strlen(name) / 2 + 1;
 
-	find_nearest(cli->program->options, name, &best, &least);
-	find_nearest(cli_common_options, name, &best, &least);
+	for (int i = 0; i < TABLES; i++)
+		find_nearest(table(cli->program, i), name, &best, &least);
 	if (best)
 		cli_usage(cli, "unknown option '--%s'; did you mean '--%s'?", name, best);
 	cli_usage(cli, "unknown option '--%s' (try --help)", name);
@@ -151,10 +172,11 @@ find_in(const struct cli_option *option, char letter, const char *name, size_t l
 static const struct cli_option *
 find(const struct cli *cli, char letter, const char *name, size_t length)
 {
-	const struct cli_option *option =
-		find_in(cli->program->options, letter, name, length);
+	const struct cli_option *option = NULL;
 
-	return option ? option : find_in(cli_common_options, letter, name, length);
+	for (int i = 0; i < TABLES && !option; i++)
+		option = find_in(table(cli->program, i), letter, name, length);
+	return option;
 }
 
 static void

@@ -18,11 +18,9 @@ struct cli_program {
 	const char *name;
 	const char *arguments; /* of the synopsis, such as "[OPTION]... [FILE]" */
 	const char *summary;   /* one line */
-	const struct cli_option *options; /* ends with a null name */
+	const struct cli_option *options; /* ends with a null name; all tools' follow */
+	int writes_images; /* has the options of what writes spectral images */
 };
-
-/* Options that every tool has; the help lists them after its own. */
-extern const struct cli_option cli_common_options[];
 
 struct cli {
 	const struct cli_program *program;

@@ -8,8 +8,6 @@
 
 #include "base/memory.h"
 #include "colour/observer.h"
-#include "colour/space.h"
-#include "image/rgb.h"
 #include "image/stream.h"
 
 #define SAME_NM 1e-3 /* names of six and of three decimals are the same band */
@@ -31,18 +29,29 @@ struct comparison {
 /* What a line's two measures are, as the stream carries them. */
 struct row {
 	struct spec_measure spectral, others;
+	struct spec_whole whole;
 };
 
 static void __attribute__((format(printf, 2, 3)))
 say(struct spec_images *result, const char *format, ...)
 {
-	size_t length = strlen(result->structure);
+	static const char more[] = "... and more\n";
+	size_t length = strlen(result->structure), room = sizeof result->structure - length;
 	va_list arguments;
+	int wanted;
 
+	if (length >= sizeof more &&
+		strcmp(result->structure + length - sizeof more + 1, more) == 0)
+		return;
 	va_start(arguments, format);
-	vsnprintf(result->structure + length, sizeof result->structure - length, format,
-		arguments);
+	wanted = vsnprintf(result->structure + length, room, format, arguments);
 	va_end(arguments);
+	spec_error_plain(
+		result->structure + length); /* of the line break too: put it back */
+	if (wanted > 0 && (size_t)wanted < room)
+		result->structure[length + wanted - 1] = '\n';
+	if (wanted < 0 || (size_t)wanted + sizeof more > room) /* whole lines or none */
+		strcpy(result->structure + length, more);
 }
 
 static void
@@ -68,14 +77,17 @@ compare_quantities(struct spec_images *result, const struct spec_image *a,
 	return status;
 }
 
-static void
+/* Whether the bands can be paired. */
+static int
 compare_bands(
 	struct spec_images *result, const struct spec_image *a, const struct spec_image *b)
 {
 	size_t i = 0;
 
+	int paired = 0;
+
 	if (a->role != b->role)
-		return;
+		return 0;
 	if (a->stokes != b->stokes)
 		say(result, "Stokes components differ: %d and %d\n", a->stokes, b->stokes);
 	while (i < a->bands && i < b->bands &&
@@ -91,7 +103,9 @@ compare_bands(
 			"bands differ: %zu and %zu, the second has %g nm, the first has "
 			"not\n",
 			a->bands, b->bands, b->wavelength_nm[i]);
-	else if ((a->edges_nm != NULL) != (b->edges_nm != NULL))
+	else
+		paired = a->stokes == b->stokes;
+	if (paired && (a->edges_nm != NULL) != (b->edges_nm != NULL))
 		say(result, "bands differ: one has bins, the other has point samples\n");
 	for (i = 0; a->edges_nm && b->edges_nm && a->bands == b->bands && i <= a->bands;
 		i++) {
@@ -101,6 +115,7 @@ compare_bands(
 			break;
 		}
 	}
+	return paired;
 }
 
 static size_t
@@ -188,17 +203,15 @@ compare_structure(struct comparison *comparison, struct spec_error *error)
 {
 	struct spec_images *result = comparison->result;
 	const struct spec_image *a = comparison->a, *b = comparison->b;
+	int same_window = memcmp(&a->data, &b->data, sizeof a->data) == 0;
 	enum spec_status status;
 
 	compare_windows(result, "data", &a->data, &b->data);
 	compare_windows(result, "display", &a->display, &b->display);
-	compare_bands(result, a, b);
+	result->comparable = compare_bands(result, a, b) && same_window;
 	status = compare_quantities(result, a, b, error);
 	if (status != SPEC_OK)
 		return status;
-	result->comparable = strncmp(result->structure, "data windows", 12) != 0 &&
-			     !strstr(result->structure, "bands differ") &&
-			     a->role == b->role && a->stokes == b->stokes;
 	status = pair_channels(result, a, b, 1, &comparison->others, error);
 	if (status == SPEC_OK && a->bands == 0 && b->bands == 0)
 		status = pair_channels(result, a, b, 0, &comparison->bands, error);
@@ -238,12 +251,8 @@ plan_colour(struct comparison *comparison, const struct spec_images_setup *setup
 		return status;
 	comparison->spectral_setup.weight_xyz = comparison->weight_xyz;
 	comparison->result->coloured = 1;
-	if (light)
-		return spec_observer_white(setup->observer, light,
-			comparison->spectral_setup.white_xyz, error);
-	spec_white_xyz(
-		spec_white_find("D65", NULL)->xy, comparison->spectral_setup.white_xyz);
-	return SPEC_OK;
+	return spec_observer_white(setup->observer, setup->illuminant,
+		comparison->spectral_setup.white_xyz, error);
 }
 
 static void
@@ -258,46 +267,67 @@ gather(const struct spec_stream_worker *worker, const struct pairs *pairs,
 	}
 }
 
-/*
- * Whole numbers become floats to be measured. Two that differ but round to one
- * float are kept apart.
- */
+static uint32_t
+distance(uint32_t a, uint32_t b)
+{
+	return a > b ? a - b : b - a;
+}
+
 static void
-number_rows(const float *two[2], size_t width, float *number)
+compare_whole(const float *a, const float *b, size_t width, size_t channel, int y,
+	struct spec_whole *whole)
 {
 	for (size_t x = 0; x < width; x++) {
-		uint32_t a, b;
+		uint32_t one, two;
 
-		memcpy(&a, two[0] + x, sizeof a);
-		memcpy(&b, two[1] + x, sizeof b);
-		number[x] = (float)a;
-		number[width + x] = (float)b;
-		if (a != b && number[x] == number[width + x])
-			number[width + x] = nextafterf(number[x], a < b ? INFINITY : 0);
+		memcpy(&one, a + x, sizeof one);
+		memcpy(&two, b + x, sizeof two);
+		if (one == two)
+			continue;
+		if (whole->differing++ == 0 ||
+			distance(one, two) > distance(whole->a, whole->b)) {
+			whole->a = one;
+			whole->b = two;
+			whole->x = x;
+			whole->y = y;
+			whole->channel = channel;
+		}
 	}
-	two[0] = number;
-	two[1] = number + width;
+}
+
+static void
+add_whole(struct spec_whole *total, const struct spec_whole *row)
+{
+	unsigned long long before = total->differing;
+
+	if (row->differing == 0)
+		return;
+	if (before == 0 || distance(row->a, row->b) > distance(total->a, total->b))
+		*total = *row;
+	total->differing = before + row->differing;
 }
 
 static void
 measure_others(const struct comparison *comparison, const struct spec_stream_worker *worker,
-	int line, const float **plane, float *number, struct spec_measure *row)
+	int line, const float **plane, struct row *row)
 {
 	const struct pairs *pairs = &comparison->others;
 	size_t width = spec_window_width(&comparison->a->data);
 
 	gather(worker, pairs, comparison, line, plane);
-	spec_measure_clear(row);
+	spec_measure_clear(&row->others);
+	row->whole = (struct spec_whole){0};
 	for (size_t i = 0; i < pairs->count; i++) {
-		const float *two[2] = {plane[i], plane[pairs->count + i]};
+		const float *const *a = &plane[i], *const *b = &plane[pairs->count + i];
 		struct spec_measure one;
 
-		if (is_whole(&comparison->a->channel[pairs->a[i]]))
-			number_rows(two, width, number);
-		spec_measure_row(
-			&comparison->others_setup, &two[0], &two[1], width, line, &one);
+		if (is_whole(&comparison->a->channel[pairs->a[i]])) {
+			compare_whole(*a, *b, width, pairs->a[i], line, &row->whole);
+			continue;
+		}
+		spec_measure_row(&comparison->others_setup, a, b, width, line, &one);
 		one.difference.place.band = one.nonfinite_first.band = i;
-		spec_measure_add(row, &one);
+		spec_measure_add(&row->others, &one);
 	}
 }
 
@@ -306,9 +336,7 @@ kernel(void *state, struct spec_stream_worker *worker, int line, struct spec_err
 {
 	const struct comparison *comparison = state;
 	size_t width = spec_window_width(&comparison->a->data);
-	size_t planes = 2 * (comparison->bands.count + comparison->others.count);
 	const float **plane = worker->scratch;
-	float *number = (float *)(void *)(plane + planes);
 	struct row *row = (struct row *)(void *)worker->payload;
 
 	(void)error;
@@ -317,7 +345,7 @@ kernel(void *state, struct spec_stream_worker *worker, int line, struct spec_err
 	if (comparison->bands.count > 0)
 		spec_measure_row(&comparison->spectral_setup, plane,
 			plane + comparison->bands.count, width, line, &row->spectral);
-	measure_others(comparison, worker, line, plane, number, &row->others);
+	measure_others(comparison, worker, line, plane, row);
 	return SPEC_OK;
 }
 
@@ -333,6 +361,7 @@ deliver(void *state, const unsigned char *payload, int line, int count,
 	for (int i = 0; i < count; i++) {
 		spec_measure_add(&comparison->result->spectral, &row[i].spectral);
 		spec_measure_add(&comparison->result->others, &row[i].others);
+		add_whole(&comparison->result->whole, &row[i].whole);
 	}
 	return SPEC_OK;
 }
@@ -359,9 +388,7 @@ measure(struct comparison *comparison, struct spec_reader *a, struct spec_reader
 		.lines = (int)spec_window_height(&comparison->a->data),
 		.lines_in = 1,
 		.payload_bytes = sizeof(struct row),
-		.scratch_bytes =
-			planes * sizeof(float *) +
-			2 * spec_window_width(&comparison->a->data) * sizeof(float),
+		.scratch_bytes = planes * sizeof(float *),
 		.state = comparison,
 		.kernel = kernel,
 		.deliver = deliver,
@@ -370,7 +397,6 @@ measure(struct comparison *comparison, struct spec_reader *a, struct spec_reader
 	enum spec_status status = spec_stream_run(&stream, settings, error);
 
 	comparison->result->bands = comparison->bands.count;
-	comparison->result->other_count = comparison->others.count;
 	name_channels(&comparison->result->spectral, &comparison->bands);
 	name_channels(&comparison->result->others, &comparison->others);
 	return status;
@@ -405,6 +431,8 @@ spec_images_compare(struct spec_images *result, struct spec_reader *a,
 		status = plan_colour(&comparison, setup, error);
 	if (status == SPEC_ERANGE && setup->colour_optional)
 		status = SPEC_OK;
+	else if (status != SPEC_OK)
+		spec_error_prefix(error, "%s", spec_reader_name(a));
 	if (status == SPEC_OK && result->comparable &&
 		comparison.bands.count + comparison.others.count > 0)
 		status = measure(&comparison, a, b, settings, error);

@@ -9,12 +9,21 @@
 #include "spectrum/curve.h"
 
 struct spec_images_setup {
-	const struct spec_curve *observer;   /* for CIEDE2000; null: not wanted */
-	const struct spec_curve *illuminant; /* of reflective images */
+	const struct spec_curve *observer; /* for CIEDE2000; null: not wanted */
+	const struct spec_curve
+		*illuminant; /* on reflective images; its white is that of both */
 	int colour_optional; /* bands that the observer does not see are no error */
 	double exposure;     /* stops: emissive light of 2^-exposure is white */
 	int want_angle;
 	double peak; /* of psnr; 0: the largest magnitude in A */
+};
+
+/* Whole numbers that are no bands, such as ids: equal or not. */
+struct spec_whole {
+	unsigned long long differing; /* samples */
+	uint32_t a, b;                /* the pair farthest apart, the first of those */
+	size_t x, channel;            /* where: the channel's index is A's */
+	int y;
 };
 
 struct spec_images {
@@ -26,7 +35,7 @@ struct spec_images {
 	/* Of the bands, or, in images without any, of all channels but whole numbers. */
 	struct spec_measure spectral;
 	struct spec_measure others; /* of all other channels */
-	size_t other_count;
+	struct spec_whole whole;
 };
 
 /*

@@ -9,6 +9,8 @@
 #include "image/image.h"
 #include "image/names.h"
 
+#define SAME_NM 1e-3 /* names of six and of three decimals are the same band */
+
 struct band {
 	double wavelength_nm;
 	size_t channel;
@@ -198,6 +200,33 @@ find_edges(struct spec_image *image, const char *name, struct spec_error *error)
 	return status;
 }
 
+static int
+has_band(const struct spec_image *image, double wavelength_nm)
+{
+	for (size_t i = 0; i < image->bands; i++) {
+		if (fabs(image->wavelength_nm[i] - wavelength_nm) < SAME_NM)
+			return 1;
+	}
+	return 0;
+}
+
+/* Light that leaves at a wavelength without a band would be lost. */
+static enum spec_status
+check_bispectral(const struct spec_image *image, const char *name, struct spec_error *error)
+{
+	for (size_t i = 0; i < image->channels && image->bispectral > 0; i++) {
+		const struct spec_channel *channel = &image->channel[i];
+
+		if (channel->role == SPEC_ROLE_BISPECTRAL &&
+			!(has_band(image, channel->wavelength_nm) &&
+				has_band(image, channel->reradiated_nm)))
+			return spec_error_set(error, SPEC_EFORMAT,
+				"%s: channel '%s' has a wavelength that is not on the diagonal",
+				name, channel->name);
+	}
+	return SPEC_OK;
+}
+
 static enum spec_status
 find_bands(struct spec_image *image, struct band *band, const char *name,
 	struct spec_error *error)
@@ -216,7 +245,7 @@ find_bands(struct spec_image *image, struct band *band, const char *name,
 	if (status == SPEC_OK && image->bands == 0)
 		status = spec_error_set(error, SPEC_EFORMAT,
 			"%s: has bispectral channels but none on the diagonal", name);
-	return status;
+	return status == SPEC_OK ? check_bispectral(image, name, error) : status;
 }
 
 enum spec_status

@@ -261,7 +261,7 @@ add_band_terms(struct spec_convert *convert, const struct spec_convert_setup *se
 				"zero|constant)",
 				name, wavelength_nm, known[0], known[last]);
 		if (setup->extrapolate == SPEC_EXTRAPOLATE_ZERO)
-			factor = 0;
+			return SPEC_OK; /* no term: zero times a NaN would be one */
 	}
 	while (i < last && known[i + 1] <= wavelength_nm + SAME_NM)
 		i++;
@@ -364,6 +364,16 @@ plan_terms(struct spec_convert *convert, const struct spec_convert_setup *setup,
 	return status;
 }
 
+static int
+is_per_band(const struct spec_image *input)
+{
+	char *quantity = spec_image_text(input, "spec:quantity");
+	int per_band = quantity && strstr(quantity, "per band");
+
+	free(quantity);
+	return per_band;
+}
+
 static enum spec_status
 check_setup(const struct spec_image *input, const struct spec_convert_setup *setup,
 	const char *name, struct spec_error *error)
@@ -373,6 +383,9 @@ check_setup(const struct spec_image *input, const struct spec_convert_setup *set
 	if (input->bands == 0 && spectral)
 		return spec_error_set(
 			error, SPEC_EFORMAT, "%s: has no spectral channel", name);
+	if (setup->grid && is_per_band(input))
+		return spec_error_set(error, SPEC_EUNSUPPORTED,
+			"%s: its values are per band; they cannot be interpolated", name);
 	if (setup->illuminate && input->role != SPEC_ROLE_REFLECTIVE)
 		return spec_error_set(error, SPEC_EUSAGE,
 			"%s: only reflectance (T) can be illuminated", name);
@@ -504,36 +517,48 @@ most_frequent(const struct spec_convert *convert, const struct spec_stream_worke
 	return best;
 }
 
+/* Whole numbers that are no bands. */
+static void
+reduce_numbers(const struct spec_convert *convert, const struct spec_stream_worker *worker,
+	size_t source, int y, float *to)
+{
+	size_t width = spec_window_width(&convert->image.data);
+
+	for (size_t x = 0; x < width; x++) {
+		uint32_t value = most_frequent(convert, worker, source, y, x);
+
+		memcpy(to + x, &value, sizeof value);
+	}
+}
+
 static void
 convert_row(const struct spec_convert *convert, const struct spec_stream_worker *worker,
 	size_t channel, int y, float *to)
 {
 	size_t width = spec_window_width(&convert->image.data);
 	size_t first = convert->first[channel], count = convert->first[channel + 1] - first;
-	size_t source = convert->channel[first];
-	const float *from = spec_decoder_row(worker->decoder[0], y, source) + convert->x0;
+	const size_t *source = convert->channel + first;
+	const double *weight = convert->weight + first;
+	const float *from;
 
-	if (convert->image.channel[channel].sample == SPEC_SAMPLE_UINT) {
-		for (size_t x = 0; x < width && convert->downsample > 1; x++) {
-			uint32_t value = most_frequent(convert, worker, source, y, x);
-
-			memcpy(to + x, &value, sizeof value);
-		}
-		if (convert->downsample == 1)
-			memcpy(to, from, width * sizeof *to);
-	} else if (convert->downsample > 1 || count > 2) {
-		sum_row(convert, worker, channel, y, to, width);
-	} else if (count == 2) {
-		blend_row(to, from,
-			spec_decoder_row(
-				worker->decoder[0], y, convert->channel[first + 1]) +
-				convert->x0,
-			convert->weight[first], convert->weight[first + 1], width);
-	} else if (convert->weight[first] == 1) {
-		memcpy(to, from, width * sizeof *to);
-	} else {
-		scale_row(to, from, convert->weight[first], width);
+	if (count == 0) {
+		memset(to, 0, width * sizeof *to);
+		return;
 	}
+	from = spec_decoder_row(worker->decoder[0], y, source[0]) + convert->x0;
+	if (convert->downsample > 1 &&
+		convert->image.channel[channel].sample == SPEC_SAMPLE_UINT)
+		reduce_numbers(convert, worker, source[0], y, to);
+	else if (convert->downsample > 1 || count > 2)
+		sum_row(convert, worker, channel, y, to, width);
+	else if (count == 2)
+		blend_row(to, from,
+			spec_decoder_row(worker->decoder[0], y, source[1]) + convert->x0,
+			weight[0], weight[1], width);
+	else if (weight[0] == 1)
+		memcpy(to, from, width * sizeof *to);
+	else
+		scale_row(to, from, weight[0], width);
 }
 
 static enum spec_status

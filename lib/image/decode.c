@@ -109,6 +109,7 @@ decode_chunk(struct spec_decoder *decoder, const struct spec_fetched *chunk,
 		info->compression != EXR_COMPRESSION_B44A)
 		return SPEC_OK;
 	spec_exr_forget();
+	spec_exr_allow(decoder->reader->limits.memory, "memory");
 	result = start_pipeline(decoder, info);
 	pipeline->packed_buffer = decoder->packed.bytes + chunk->at;
 	pipeline->packed_alloc_size = 0;
@@ -145,7 +146,7 @@ decode_scanlines(struct spec_decoder *decoder, struct spec_error *error)
 		if (info->packed_size != info->unpacked_size)
 			total += spec_reading_align(info->unpacked_size);
 	}
-	status = spec_reading_reserve(&decoder->unpacked, total, 0, error);
+	status = spec_reading_reserve(&decoder->unpacked, total ? total : 1, 0, error);
 	for (size_t i = 0; i < decoder->chunks && status == SPEC_OK; i++) {
 		const exr_chunk_info_t *info = &decoder->chunk[i].info;
 		const unsigned char *bytes;

@@ -10,7 +10,28 @@
 static _Thread_local struct {
 	char message[256];
 	struct spec_error noted;
+	long long allowed; /* 0: not set, no limit */
+	const char *option;
 } last;
+
+void
+spec_exr_allow(long long size, const char *option)
+{
+	last.allowed = size;
+	last.option = option;
+}
+
+void *
+spec_exr_allocate(size_t size)
+{
+	if (last.allowed > 0 && size > (size_t)last.allowed) {
+		spec_error_set(&last.noted, SPEC_ERANGE,
+			"a piece of %zu bytes is more than the limit of %lld (--limit %s=BYTES)",
+			size, last.allowed, last.option);
+		return NULL;
+	}
+	return malloc(size);
+}
 
 void
 spec_exr_report(exr_const_context_t context, exr_result_t code, const char *message)

@@ -30,6 +30,14 @@ enum spec_status spec_exr_error(
 void spec_exr_note(const struct spec_error *error);
 int spec_exr_has_note(void);
 
+/*
+ * OpenEXRCore allocates what a header asks for before it has read it. This allocator
+ * refuses single pieces above the thread's limit, with a note that names the option
+ * which lifts it; spec_exr_allow sets the limit for the calling thread.
+ */
+void *spec_exr_allocate(size_t size);
+void spec_exr_allow(long long size, const char *option);
+
 /* Copies a part's attributes into the image, except those that its fields hold. */
 enum spec_status spec_exr_get_attributes(exr_const_context_t context, int part,
 	struct spec_image *image, const char *name, struct spec_error *error);

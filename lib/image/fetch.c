@@ -53,6 +53,7 @@ fetch_chunk(struct spec_decoder *decoder, int y, int column, size_t *used,
 	exr_result_t result;
 
 	spec_exr_forget();
+	spec_exr_allow(reader->limits.memory, "memory"); /* the chunk table is read here */
 	if (reader->tiled)
 		result = exr_read_tile_chunk_info(reader->context, reader->part, column,
 			(y - reader->image.data.y0) / reader->chunk_lines, 0, 0,

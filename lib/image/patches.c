@@ -1,5 +1,6 @@
 #include "image/patches.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -12,6 +13,14 @@ is_reflective(const struct spec_curve *curve)
 {
 	return strcmp(curve->quantity, "reflectance") == 0 ||
 	       strcmp(curve->quantity, "transmittance") == 0;
+}
+
+static int
+is_light(const struct spec_curve *curve)
+{
+	return curve->quantity[0] == '\0' ||
+	       strcmp(curve->quantity, "spectral power distribution") == 0 ||
+	       strncmp(curve->quantity, "radiance", strlen("radiance")) == 0;
 }
 
 static enum spec_status
@@ -50,7 +59,11 @@ spec_patches_image(struct spec_image *image, const struct spec_curve *curve, siz
 	if (width > 1 << 20 || height > 1 << 20)
 		return spec_error_set(error, SPEC_ERANGE,
 			"a chart of %lld x %lld pixels is too large", width, height);
-	for (size_t i = 1; i < curves; i++) {
+	for (size_t i = 0; i < curves; i++) {
+		if (!is_reflective(&curve[i]) && !is_light(&curve[i]))
+			return spec_error_set(error, SPEC_EUSAGE,
+				"'%s' is a %s: an image holds light, reflectance or transmittance",
+				curve[i].title, curve[i].quantity);
 		if (is_reflective(&curve[i]) != is_reflective(&curve[0]))
 			return spec_error_set(error, SPEC_EUSAGE,
 				"'%s' is %s but '%s' is %s", curve[0].title,
@@ -218,10 +231,17 @@ spec_patches_curve(
 			const float *row =
 				spec_decoder_row(decoder, y, image->band_channel[i]);
 
-			for (size_t x = 0; x < width; x++)
-				curve->value[((y - image->data.y0) * width + x) *
-						     image->bands +
-					     i] = shortest(row[x]);
+			for (size_t x = 0; x < width && status == SPEC_OK; x++) {
+				size_t pixel = (y - image->data.y0) * width + x;
+
+				if (!isfinite(row[x]))
+					status = spec_error_set(error, SPEC_EFORMAT,
+						"%s: pixel %zu,%d is not finite at %g nm",
+						spec_reader_name(reader), x,
+						y - image->data.y0,
+						image->wavelength_nm[i]);
+				curve->value[pixel * image->bands + i] = shortest(row[x]);
+			}
 		}
 	}
 	spec_decoder_close(decoder);

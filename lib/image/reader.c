@@ -74,8 +74,13 @@ start(struct spec_reader *reader, struct spec_error *error)
 	setup.user_data = reader;
 	setup.read_fn = read_bytes;
 	setup.size_fn = reader->source.seekable ? source_size : NULL;
-	setup.flags = EXR_CONTEXT_FLAG_DISABLE_CHUNK_RECONSTRUCTION;
+	setup.alloc_fn = spec_exr_allocate;
+	setup.free_fn = free;
+	/* Not strict, the library would guess at what it cannot read. */
+	setup.flags = EXR_CONTEXT_FLAG_DISABLE_CHUNK_RECONSTRUCTION |
+		      EXR_CONTEXT_FLAG_STRICT_HEADER;
 	spec_exr_forget();
+	spec_exr_allow(reader->limits.header, "header");
 	result = exr_start_read(&reader->context, reader->source.name, &setup);
 	if (result == EXR_ERR_SUCCESS)
 		return SPEC_OK;
@@ -253,6 +258,10 @@ get_storage(struct spec_reader *reader, struct spec_error *error)
 		reader->image.compression == EXR_COMPRESSION_DWAB)
 		return spec_error_set(error, SPEC_EUNSUPPORTED,
 			"%s: DWA compression is not in this version of OpenEXRCore", name);
+	if (reader->image.compression < EXR_COMPRESSION_NONE ||
+		reader->image.compression > EXR_COMPRESSION_B44A)
+		return spec_error_set(error, SPEC_EFORMAT, "%s: compression %d is unknown",
+			name, reader->image.compression);
 	reader->tiled = storage == EXR_STORAGE_TILED;
 	if (!reader->tiled) {
 		result = exr_get_scanlines_per_chunk(reader->context, reader->part, &lines);
@@ -273,7 +282,12 @@ get_storage(struct spec_reader *reader, struct spec_error *error)
 					tile);
 		}
 	}
-	return result == EXR_ERR_SUCCESS ? SPEC_OK : spec_exr_error(result, name, error);
+	if (result != EXR_ERR_SUCCESS)
+		return spec_exr_error(result, name, error);
+	if (reader->chunk_lines < 1)
+		return spec_error_set(
+			error, SPEC_EFORMAT, "%s: its storage is unknown", name);
+	return SPEC_OK;
 }
 
 static enum spec_status

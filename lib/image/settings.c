@@ -58,6 +58,9 @@ spec_settings_compression(const char *name, int *compression, struct spec_error 
 			return SPEC_OK;
 		}
 	}
+	if (strcmp(name, "dwaa") == 0 || strcmp(name, "dwab") == 0)
+		return spec_error_set(error, SPEC_EUNSUPPORTED,
+			"%s compression is not in this version of OpenEXRCore", name);
 	return spec_error_set(error, SPEC_EUSAGE,
 		"unknown compression '%s' (none rle zips zip piz pxr24 b44 b44a)", name);
 }

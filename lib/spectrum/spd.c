@@ -123,6 +123,7 @@ parse_header(struct parser *parser, const char *text)
 		*keys[i].value = spec_memory_text(text, strlen(text), parser->error);
 		if (!*keys[i].value)
 			return SPEC_ENOMEM;
+		break;
 	}
 	if (parser->medium && *parser->medium && strcmp(parser->medium, "air") != 0 &&
 		strcmp(parser->medium, "vacuum") != 0)
@@ -528,7 +529,6 @@ spec_spd_write(FILE *file, const struct spec_curve *curve, struct spec_error *er
 enum spec_status
 spec_spd_save(const char *path, const struct spec_curve *curve, struct spec_error *error)
 {
-	struct spec_output output;
 	char *text = NULL;
 	size_t size = 0;
 	FILE *memory = open_memstream(&text, &size);
@@ -540,14 +540,7 @@ spec_spd_save(const char *path, const struct spec_curve *curve, struct spec_erro
 	if (fclose(memory) != 0 && status == SPEC_OK)
 		status = spec_error_set(error, SPEC_ENOMEM, "out of memory for a text");
 	if (status == SPEC_OK)
-		status = spec_output_open(&output, path, error);
-	if (status == SPEC_OK) {
-		status = spec_output_write(&output, text, size, error);
-		if (status == SPEC_OK)
-			status = spec_output_commit(&output, error);
-		else
-			spec_output_abandon(&output);
-	}
+		status = spec_output_save(path, text, size, error);
 	free(text);
 	return status;
 }
