@@ -32,17 +32,17 @@ complain() {
 # fails_cleanly COMMAND...: exit status 2, one line on stderr that begins with the tool's name,
 # nothing on stdout. The line is left in $stderr. What goes in comes by <FILE.
 fails_cleanly() {
-  local name=${1##*/} out=$BATS_FILE_TMPDIR/stdout err=$BATS_FILE_TMPDIR/stderr
+  local name=${1##*/} out=$BATS_FILE_TMPDIR/stdout err=$BATS_FILE_TMPDIR/stderr said=()
   status=0 stderr=
   "$@" >"$out" 2>"$err" || status=$?
-  stderr=$(tr -d '\0' <"$err")
-  [ "$status" -eq 2 ] || complain "exit $status instead of 2: $*" "$stderr" || return 1
-  [ ! -s "$out" ] || complain "$(wc -c <"$out") bytes on stdout: $*" || return 1
-  [ "$(wc -l <"$err")" -eq 1 ] || complain "not one line on stderr: $*" "$stderr" || return 1
-  case $stderr in
-  "$name: "?*) ;;
-  *) complain "stderr does not begin with '$name: ': $*" "$stderr" || return 1 ;;
-  esac
+  mapfile said <"$err"
+  stderr=${said[0]%$'\n'}
+  [ "$status" -eq 2 ] || complain "exit $status instead of 2: $*" "${said[@]}" || return 1
+  [ ! -s "$out" ] || complain "something on stdout: $*" || return 1
+  [[ ${#said[@]} -eq 1 && ${said[0]} = *$'\n' ]] ||
+    complain "not one line on stderr: $*" "${said[@]}" || return 1
+  [[ $stderr = "$name: "?* ]] ||
+    complain "stderr does not begin with '$name: ': $*" "$stderr" || return 1
 }
 
 # no_leftovers FOLDER [FILE...]: there is nothing in it but these files, hidden ones included.
@@ -84,7 +84,7 @@ little() {
 # attribute_at FILE NAME TYPE: where the value of an EXR attribute begins.
 attribute_at() {
   local at
-  at=$(LC_ALL=C grep -aboP "(?<![A-Za-z])$2\\x00$3\\x00" "$1" | head -n 1)
+  at=$(LC_ALL=C grep -aboP "$2\\x00$3\\x00" "$1" | head -n 1 | tr -d '\0')
   [ -n "$at" ] || complain "$1 has no attribute '$2' of type '$3'" || return 1
   echo $((${at%%:*} + ${#2} + ${#3} + 6))
 }
