@@ -8,6 +8,7 @@
 #include "base/number.h"
 #include "image/exr.h"
 #include "image/reading.h"
+#include "image/scan.h"
 
 #define LARGEST_COORDINATE (1 << 30) /* so that widths and heights fit an int */
 #define BLOCK_COPIES 4               /* packed, unpacked, scratch and converted */
@@ -343,6 +344,8 @@ open_reader(struct spec_reader *reader, const char *path,
 	reader->limits = settings->limits;
 	if (status == SPEC_OK)
 		status = check_magic(reader, error);
+	if (status == SPEC_OK)
+		status = spec_scan_channels(&reader->source, settings->limits.channels, error);
 	if (status == SPEC_OK)
 		status = start(reader, error);
 	if (status == SPEC_OK && exr_get_count(reader->context, &parts) != EXR_ERR_SUCCESS)

@@ -1,0 +1,427 @@
+#!/usr/bin/env bats
+# spec2rgb: the right colours, in every format, from every source, and no half a picture.
+# shellcheck disable=SC2154 # fails_cleanly leaves its line in stderr
+
+load common
+
+# pixel FILE.ppm X Y: red, green and blue of a binary PPM, whose header has three lines.
+pixel() {
+  local width most header samples
+  read -r width _ < <(sed -n 2p "$1" | tr -d '\0')
+  most=$(sed -n 3p "$1" | tr -d '\0')
+  header=$(head -n 3 "$1" | wc -c)
+  samples=$((3 * ($3 * width + $2)))
+  if [ "$most" = 255 ]; then
+    tail -c +$((header + samples + 1)) "$1" | od -An -v -tu1 -N3
+  else
+    tail -c +$((header + 2 * samples + 1)) "$1" | od -An -v -tu2 --endian=big -N6
+  fi | xargs
+}
+
+# is PIXEL FILE.ppm X Y
+is() {
+  local found
+  found=$(pixel "$2" "$3" "$4")
+  [ "$found" = "$1" ] || complain "$2 has $found at $3,$4, not $1"
+}
+
+# begins FILE HEX: its first bytes.
+begins() {
+  local found
+  found=$(od -An -v -tx1 -N$((${#2} / 2)) "$1" | tr -d ' \n')
+  [ "$found" = "$2" ] || complain "$1 begins with $found, not $2"
+}
+
+png=89504e470d0a1a0a
+
+# quiet COMMAND...: it succeeds and says nothing on stderr.
+quiet() {
+  "$@" 2>quiet.err
+  [ ! -s quiet.err ] || complain "$(cat quiet.err)"
+  rm quiet.err
+}
+
+# Colours
+
+@test "the perfect reflector under D65 is white" {
+  spectral white.exr --kind T --grid 360:830:5 --pattern constant:1
+  quiet spec2rgb white.exr -o white.ppm
+  [ "$(head -c 12 white.ppm | head -n 3 | xargs)" = 'P6 16 8 255' ]
+  [ "$(wc -c <white.ppm)" -eq $((12 + 16 * 8 * 3)) ]
+  for y in 0 7; do
+    is '255 255 255' white.ppm 0 $y
+    is '255 255 255' white.ppm 15 $y
+  done
+}
+
+@test "half the light is sRGB 188" {
+  # 255 (1.055 * 0.5^(1/2.4) - 0.055) = 187.516. The white of D65's table is not quite
+  # (0.3127, 0.3290), which takes 2 parts in 10000 from blue: 0.502, which is 187.86, has room.
+  spectral grey.exr --kind T --grid 360:830:5 --pattern constant:0.502
+  quiet spec2rgb grey.exr -o grey.ppm
+  is '188 188 188' grey.ppm 3 2
+}
+
+@test "no light is black" {
+  spectral black.exr --pattern constant:0
+  quiet spec2rgb black.exr -o black.ppm
+  is '0 0 0' black.ppm 3 2
+}
+
+@test "equal energy of radiance 1 is the sum of the rows of sRGB's matrix" {
+  # X = Y = Z = 1: IEC 61966-2-1 has R = 3.2406 - 1.5372 - 0.4986 = 1.2048,
+  # G = -0.9689 + 1.8758 + 0.0415 = 0.9484, B = 0.0557 - 0.2040 + 1.0570 = 0.9087. Encoded and
+  # times 255: R is clipped, G 249.13. At half the light 203.79, 183.11, 179.63.
+  spectral e.exr --grid 360:830:5 --pattern constant:1
+  quiet spec2rgb e.exr -o e.ppm
+  [[ $(pixel e.ppm 0 0) = '255 249 24'[45] ]] || complain "$(pixel e.ppm 0 0)"
+  spectral half.exr --grid 360:830:5 --pattern constant:0.5
+  quiet spec2rgb half.exr -o half.ppm
+  is '204 183 180' half.ppm 0 0
+}
+
+@test "light has its luminance whatever the step of the grid" {
+  for step in 1 2 5 10; do
+    spectral e.exr --grid 360:830:$step --pattern constant:0.5
+    quiet spec2rgb e.exr -o e.ppm
+    is '204 183 180' e.ppm 0 0
+  done
+}
+
+@test "a band mean is integrated over its bin" {
+  spectral e.exr --grid 365:825:10 --bins --pattern constant:0.5
+  quiet spec2rgb e.exr -o e.ppm
+  is '204 183 180' e.ppm 0 0
+}
+
+@test "radiance per band is not multiplied by the step again" {
+  # 95 bands of 5 nm with 2.5 each: 0.5 per nm; the ends count half a step more than 360..830.
+  spectral e.exr --grid 360:830:5 --pattern constant:2.5 --quantity 'radiance per band'
+  quiet spec2rgb e.exr -o e.ppm
+  is '204 183 180' e.ppm 0 0
+}
+
+@test "a pixel has the place it had" {
+  # red at 2,1 alone: the ramp is black elsewhere by a NaN's picture; 620 nm is band 11
+  spectral spot.exr --pattern constant:0 --pattern inf:2,1,11
+  spec2rgb -q spot.exr -o spot.ppm
+  is '0 0 0' spot.ppm 1 1
+  is '0 0 0' spot.ppm 2 0
+  [ "$(pixel spot.ppm 2 1)" != '0 0 0' ]
+}
+
+@test "--observer 1964 sees another picture than 1931" {
+  spectral ramp.exr
+  spec2rgb ramp.exr -o default.ppm
+  spec2rgb --observer 1931 ramp.exr -o 1931.ppm
+  spec2rgb --observer 1964 ramp.exr -o 1964.ppm
+  cmp default.ppm 1931.ppm
+  run ! cmp -s 1931.ppm 1964.ppm
+}
+
+@test "--observer takes a table of one's own" {
+  spectral ramp.exr
+  spec2rgb --observer 1931 ramp.exr -o name.ppm
+  spec2rgb --observer "$ROOT/spectra/cmf/cie1931.spd" ramp.exr -o path.ppm
+  cmp name.ppm path.ppm
+}
+
+@test "--illuminant A is warmer than D65" {
+  spectral white.exr --kind T --grid 360:830:5 --pattern constant:0.5
+  spec2rgb --illuminant A white.exr -o a.ppm
+  read -r red green blue < <(pixel a.ppm 0 0)
+  [ "$red" -gt 188 ]
+  [ "$green" -lt 188 ]
+  [ "$blue" -lt 100 ]
+}
+
+@test "--adapt makes a white of every illuminant's white" {
+  spectral white.exr --kind T --grid 360:830:5 --pattern constant:0.5
+  for adapt in bradford cat16; do
+    quiet spec2rgb --illuminant A --adapt $adapt white.exr -o $adapt.ppm
+    is '188 188 188' $adapt.ppm 0 0
+  done
+}
+
+@test "--exposure 1 doubles, and so does twice the light" {
+  spectral one.exr --pattern constant:0.2
+  spectral two.exr --pattern constant:0.4
+  spec2rgb --exposure 1 one.exr -o one.ppm
+  spec2rgb two.exr -o two.ppm
+  cmp one.ppm two.ppm
+  spec2rgb -e -1 two.exr -o half.ppm
+  spec2rgb one.exr -o plain.ppm
+  cmp half.ppm plain.ppm
+}
+
+@test "--bits 16 holds finer steps" {
+  # 65535 (1.055 * 0.5^(1/2.4) - 0.055) = 48191.7; a white of D65's table is off by 1e-4 at most
+  spectral grey.exr --kind T --grid 360:830:5 --pattern constant:0.5
+  spec2rgb --bits 16 grey.exr -o grey.ppm
+  [ "$(sed -n 3p grey.ppm | tr -d '\0')" = 65535 ]
+  for channel in $(pixel grey.ppm 0 0); do
+    [ "$channel" -ge 48180 ]
+    [ "$channel" -le 48203 ]
+  done
+  spec2rgb --bits 16 grey.exr -o grey.png
+  begins <(tail -c +25 grey.png) 10 # the depth in IHDR
+}
+
+@test "an OpenEXR picture is linear and not clipped" {
+  # Twice the light is twice the sample, exactly: the picture of 2^3 times the light of one
+  # image is, bit for bit, that of another with 8 times the radiance.
+  spectral dark.exr --grid 360:830:5 --pattern constant:0.5
+  spectral bright.exr --grid 360:830:5 --pattern constant:4
+  spec2rgb --exposure 3 dark.exr -o dark.rgb.exr
+  spec2rgb bright.exr -o bright.rgb.exr
+  specdiff --metric max dark.rgb.exr bright.rgb.exr
+  # R, whose last sample is the file's last, is 4 times 1.2048, the sum of its row in sRGB's
+  # matrix of four decimals; the observer's sums are equal to 2e-4.
+  specconvert --compression none bright.rgb.exr -o plain.exr
+  tail -c 4 plain.exr | od -An -tf4 | awk '{ exit !($1 > 4.8175 && $1 < 4.8210) }'
+  exrheader bright.rgb.exr | grep -q ' R, 32-bit'
+}
+
+@test "NaN, infinity and negative light: one warning, and a picture" {
+  spectral odd.exr --pattern nan:2,3,4 --pattern inf:5,6,7
+  spec2rgb odd.exr -o odd.ppm 2>err
+  [ "$(wc -l <err)" -eq 1 ]
+  [[ $(cat err) = 'spec2rgb: warning: odd.exr: 2 pixels are not finite, the first at 2,3' ]] || complain "$(cat err)"
+  is '0 0 0' odd.ppm 2 3
+  spectral negative.exr --pattern negative
+  quiet spec2rgb negative.exr -o negative.ppm
+  is '0 0 0' negative.ppm 15 7
+}
+
+@test "more than 1 % of the luminance outside the bands is worth a warning" {
+  spectral narrow.exr --grid 500:600:10
+  spec2rgb narrow.exr -o narrow.png 2>err
+  [ "$(wc -l <err)" -eq 1 ]
+  [[ $(cat err) =~ ^'spec2rgb: warning: narrow.exr: '[0-9.]+' % of the luminance lies outside its bands'$ ]] ||
+    complain "$(cat err)"
+}
+
+@test "less than 1 % of the luminance outside the bands is not" {
+  spectral wide.exr --grid 400:700:20
+  quiet spec2rgb wide.exr -o wide.png
+}
+
+@test "-q silences the warnings" {
+  spectral odd.exr --grid 500:600:10 --pattern nan:2,3,4
+  quiet spec2rgb -q odd.exr -o odd.png
+  begins odd.png $png
+}
+
+# Formats and places
+
+@test "a file, standard input and '-' give the same PNG on standard output" {
+  spectral a.exr
+  spec2rgb a.exr >file.png
+  spec2rgb <a.exr >redirected.png
+  spec2rgb - < <(cat a.exr) >piped.png
+  begins file.png $png
+  cmp file.png redirected.png
+  cmp file.png piped.png
+}
+
+@test "-o and standard output hold the same PNG" {
+  spectral a.exr
+  spec2rgb a.exr -o file.png
+  spec2rgb a.exr | cat >piped.png
+  cmp file.png piped.png
+}
+
+@test "every suffix has its format" {
+  spectral a.exr
+  for pair in png:$png PNG:$png ppm:50360a pnm:50360a exr:762f3101 jpg:ffd8ff tif:49492a00 bmp:424d hdr:233f; do
+    quiet spec2rgb a.exr -o "out.${pair%%:*}"
+    begins "out.${pair%%:*}" "${pair#*:}"
+  done
+}
+
+@test "an unknown suffix, or none, is refused before anything is written" {
+  spectral a.exr
+  fails_cleanly spec2rgb a.exr -o a.nothing
+  [[ $stderr = *nothing* ]]
+  fails_cleanly spec2rgb a.exr -o nosuffix
+  no_leftovers . a.exr
+}
+
+@test "a missing plugin is told, and hurts no native format" {
+  mkdir bin
+  cp "$BIN/spec2rgb" bin/
+  ln -s "$ROOT/spectra" spectra
+  spectral a.exr
+  export SPECTRA_PATH=$PWD/spectra
+  quiet bin/spec2rgb a.exr -o a.png
+  fails_cleanly bin/spec2rgb a.exr -o a.jpg
+  no_leftovers . a.exr a.png bin spectra
+}
+
+@test "bits that a format cannot hold are refused" {
+  spectral a.exr
+  fails_cleanly spec2rgb --bits 32 a.exr -o a.png
+  fails_cleanly spec2rgb --bits 16 a.exr -o a.jpg
+  fails_cleanly spec2rgb --bits 12 a.exr -o a.png
+  no_leftovers . a.exr
+}
+
+@test "a folder that is not there" {
+  spectral a.exr
+  fails_cleanly spec2rgb a.exr -o missing/a.png
+  [[ $stderr = *missing/a.png* ]]
+}
+
+@test "a folder as output" {
+  spectral a.exr
+  mkdir folder.png
+  fails_cleanly spec2rgb a.exr -o folder.png
+}
+
+@test "a full device fails in every format" {
+  spectral a.exr --size 64x64
+  for suffix in png ppm exr jpg tif; do
+    ln -s /dev/full full.$suffix
+    fails_cleanly spec2rgb a.exr -o full.$suffix
+    [[ $stderr = *'No space left on device' ]] || complain "$suffix: $stderr"
+    [ -L full.$suffix ]
+  done
+}
+
+@test "a full standard output fails" {
+  spectral a.exr
+  code=0
+  spec2rgb a.exr >/dev/full 2>err || code=$?
+  [ "$code" -eq 2 ]
+  [ "$(wc -l <err)" -eq 1 ]
+}
+
+@test "a failed run leaves the old picture as it was, and nothing else" {
+  spectral a.exr --size 64x64
+  head -c 20000 a.exr >short.exr
+  for suffix in png ppm exr jpg; do
+    echo old >out.$suffix
+    fails_cleanly spec2rgb short.exr -o out.$suffix
+    [ "$(cat out.$suffix)" = old ]
+  done
+  no_leftovers . a.exr short.exr out.png out.ppm out.exr out.jpg
+}
+
+@test "a failed run makes no new picture" {
+  spectral a.exr --size 64x64
+  head -c 20000 a.exr >short.exr
+  for suffix in png ppm exr jpg; do
+    fails_cleanly spec2rgb short.exr -o out.$suffix
+  done
+  no_leftovers . a.exr short.exr
+}
+
+@test "a failed run leaves no half a file on standard output" {
+  spectral a.exr --size 64x64
+  head -c 20000 a.exr >short.exr
+  run ! spec2rgb short.exr >out.png
+  [ ! -s out.png ]
+}
+
+@test "a symbolic link as output stays one, and its target is replaced" {
+  spectral a.exr
+  mkdir real
+  echo old >real/a.png
+  ln -s real/a.png link.png
+  spec2rgb a.exr -o link.png
+  [ -L link.png ]
+  begins real/a.png $png
+  no_leftovers real a.png
+}
+
+@test "a link to nothing as output: its target is made" {
+  spectral a.exr
+  ln -s target.png link.png
+  spec2rgb a.exr -o link.png
+  [ -L link.png ]
+  begins target.png $png
+}
+
+@test "a replaced picture keeps its permissions, a new one obeys umask" {
+  spectral a.exr
+  echo old >old.png
+  chmod 604 old.png
+  umask 027
+  spec2rgb a.exr -o old.png
+  spec2rgb a.exr -o new.png
+  [ "$(stat -c %a old.png)" = 604 ]
+  [ "$(stat -c %a new.png)" = 640 ]
+}
+
+@test "every number of threads makes the same picture" {
+  spectral a.exr --size 61x67 --pattern grain
+  for suffix in png ppm exr; do
+    spec2rgb -j 1 a.exr -o one.$suffix
+    for threads in 2 3; do
+      spec2rgb -j $threads a.exr -o more.$suffix
+      cmp one.$suffix more.$suffix
+    done
+  done
+}
+
+# What cannot be shown
+
+@test "an image without bands" {
+  spectral rgb.exr --channel R --channel G --channel B
+  fails_cleanly spec2rgb rgb.exr -o rgb.png
+  [ "$stderr" = 'spec2rgb: rgb.exr: has no spectral channel' ]
+}
+
+@test "a single band has no width, unless it is a bin" {
+  spectral point.exr --channel S0.550nm
+  fails_cleanly spec2rgb point.exr -o point.png
+  spectral bin.exr --channel S0.550nm --attribute 'spec:bins=545 555'
+  spec2rgb -q bin.exr -o bin.png
+  begins bin.png $png
+}
+
+@test "bands that nobody sees" {
+  spectral infrared.exr --grid 1000:1100:50
+  fails_cleanly spec2rgb infrared.exr -o infrared.png
+}
+
+@test "each limit is refused by name" {
+  spectral a.exr
+  for limit in pixels=127 channels=15 header=500 memory=1k; do
+    fails_cleanly spec2rgb --limit $limit a.exr -o a.png
+    [[ $stderr = *"--limit ${limit%=*}="* ]] || complain "$limit: $stderr"
+  done
+  spec2rgb --limit pixels=128 --limit channels=16 a.exr -o a.png
+}
+
+@test "wrong values of options are refused, and the option is told" {
+  spectral a.exr
+  fails_cleanly spec2rgb --exposure 1x a.exr -o a.png
+  [[ $stderr = *exposure* ]]
+  fails_cleanly spec2rgb --exposure nan a.exr -o a.png
+  fails_cleanly spec2rgb --bits eight a.exr -o a.png
+  fails_cleanly spec2rgb --observer 1932 a.exr -o a.png
+  [[ $stderr = *1932* ]]
+  fails_cleanly spec2rgb --illuminant D66 a.exr -o a.png
+  [[ $stderr = *D66* ]]
+  fails_cleanly spec2rgb --adapt wrong a.exr -o a.png
+  fails_cleanly spec2rgb --threads 0 a.exr -o a.png
+  fails_cleanly spec2rgb --limit pixels a.exr -o a.png
+  fails_cleanly spec2rgb --limit colours=3 a.exr -o a.png
+  fails_cleanly spec2rgb --exposure
+  no_leftovers . a.exr
+}
+
+@test "two images are one too many" {
+  spectral a.exr
+  fails_cleanly spec2rgb a.exr a.exr
+}
+
+@test "--help, --version and options that are not there" {
+  [[ $(spec2rgb --help) = 'usage: spec2rgb [OPTION]... [FILE]'* ]]
+  [[ $(spec2rgb -V) =~ ^spec2rgb\ \(spectools\)\ [0-9.]+$ ]]
+  fails_cleanly spec2rgb --exposre 1
+  [[ $stderr = *"did you mean '--exposure'?" ]]
+  fails_cleanly spec2rgb -x
+  fails_cleanly spec2rgb --quiet=1
+}

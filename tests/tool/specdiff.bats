@@ -1,0 +1,519 @@
+#!/usr/bin/env bats
+# specdiff: what is the same, what is not, and by how much. Other tests rely on its answers.
+# shellcheck disable=SC2154 # fails_cleanly leaves its line in stderr
+
+load common
+
+# How far any number may be off before it counts: beyond what images hold. Angles end at pi.
+generous='rmse=1e300 max=1e300 sam=4 sam-max=4 psnr=0 gfc=0 gfc-min=0 de2000=1e300 de2000-max=1e300'
+
+# answers STATUS COMMAND...: its exit status; what it prints is left in $answer.
+answers() {
+  local wanted=$1 code=0
+  shift
+  answer=$("$@" 2>&1) || code=$?
+  [ "$code" -eq "$wanted" ] || complain "exit $code instead of $wanted: $*" "$answer"
+}
+
+# same A B: no difference, either way round.
+same() {
+  answers 0 specdiff "$1" "$2"
+  answers 0 specdiff "$2" "$1"
+}
+
+# always_differ A B: either way round, and whatever is tolerated.
+always_differ() {
+  local tolerance all=()
+  answers 1 specdiff "$1" "$2"
+  answers 1 specdiff "$2" "$1"
+  for tolerance in $generous; do
+    answers 1 specdiff --tolerance "$tolerance" "$1" "$2"
+    all+=(--tolerance "$tolerance")
+  done
+  answers 1 specdiff "${all[@]}" "$2" "$1"
+}
+
+# prints LINE: it is among those of the answer.
+prints() {
+  grep -qxF -e "$1" <<<"$answer" || complain "no line '$1' in:" "$answer"
+}
+
+# last_sample FILE BYTES: the last of an uncompressed file, 4 bytes, becomes another.
+last_sample() {
+  poke "$1" $(($(wc -c <"$1") - 4)) "$2"
+}
+
+# What is the same
+
+@test "a file and itself are the same, and all is printed" {
+  spectral a.exr
+  answers 0 specdiff a.exr a.exr
+  [ "$answer" = 'rmse       0
+max        0
+sam        0 rad
+sam-max    0 rad
+psnr       inf dB
+gfc        1
+gfc-min    1
+de2000     0
+de2000-max 0' ] || complain "$answer"
+}
+
+@test "the same pixels in every lossless compression are the same" {
+  spectral none.exr --compression none
+  for compression in rle zips zip piz; do
+    spectral $compression.exr --compression $compression
+    same none.exr $compression.exr
+  done
+}
+
+@test "the same numbers as HALF and as FLOAT are the same" {
+  spectral float.exr --pattern constant:0.625
+  spectral half.exr --pattern constant:0.625 --half
+  same float.exr half.exr
+}
+
+@test "numbers that HALF rounds are not the same" {
+  spectral float.exr
+  spectral half.exr --half
+  answers 1 specdiff float.exr half.exr
+}
+
+@test "tiles and lines of the same pixels are the same" {
+  spectral lines.exr --size 37x21 --data 3,-5
+  exrmaketiled -t 8 4 lines.exr tiles.exr
+  same lines.exr tiles.exr
+}
+
+@test "a part of a file and a file of its own are the same" {
+  spectral a.exr
+  spectral b.exr --pattern constant:1
+  exrmultipart -combine -i a.exr b.exr -o both.exr >/dev/null
+  specconvert --part 1 both.exr -o part.exr
+  answers 0 specdiff part.exr b.exr
+  answers 1 specdiff part.exr a.exr
+}
+
+@test "the last line first in the file is the same image" {
+  spectral a.exr --compression none
+  reverse_lines a.exr b.exr 8 $((16 * 16 * 4))
+  run ! cmp -s a.exr b.exr
+  same a.exr b.exr
+}
+
+@test "band names of six and of three decimals are the same band" {
+  spectral six.exr --size 2x2 --channel S0.410,125000nm --channel S0.420,000000nm
+  spectral three.exr --size 2x2 --channel S0.410,125nm --channel S0.420,0nm
+  same six.exr three.exr
+}
+
+@test "NaN and infinity at the same place on both sides are the same" {
+  spectral a.exr --pattern nan:2,3,4 --pattern inf:5,6,7
+  cp a.exr b.exr
+  same a.exr b.exr
+}
+
+@test "attributes that say nothing about the samples make no difference" {
+  spectral a.exr --attribute 'owner=somebody'
+  spectral b.exr --attribute 'comments=something'
+  same a.exr b.exr
+}
+
+@test "the quantity that is understood may as well be written" {
+  spectral implied.exr
+  spectral written.exr --quantity 'radiance per nm'
+  same implied.exr written.exr
+}
+
+@test "pictures without bands are compared by their channels" {
+  spectral a.exr --channel R --channel G --channel B
+  spectral b.exr --channel R --channel G --channel B --pattern negative
+  same a.exr a.exr
+  answers 1 specdiff --metric max a.exr b.exr
+  # B is band 2 of the ramp: 0.016 + 0.07 + 0.2 at the last pixel; -0.286 on the other side
+  prints "max        0.572 at 15,7 in 'B': 0.286000013 and -0.286000013"
+}
+
+# What always differs
+
+@test "NaN on one side always differs" {
+  spectral a.exr
+  spectral b.exr --pattern nan:2,3,4
+  always_differ a.exr b.exr
+}
+
+@test "NaN on one side of a channel that is no band always differs" {
+  spectral a.exr --extra Z
+  spectral b.exr --extra Z --pattern nan:2,3,16
+  always_differ a.exr b.exr
+}
+
+@test "infinity on one side always differs" {
+  spectral a.exr
+  spectral b.exr --pattern inf:15,7,15
+  always_differ a.exr b.exr
+}
+
+@test "infinity and NaN at one place always differ" {
+  spectral a.exr --pattern nan:0,0,0
+  spectral b.exr --pattern inf:0,0,0
+  always_differ a.exr b.exr
+}
+
+@test "a missing band always differs" {
+  spectral a.exr --grid 400:700:20
+  spectral b.exr --grid 400:680:20
+  always_differ a.exr b.exr
+  prints 'bands differ: 15 and 16, the second has 700 nm, the first has not'
+}
+
+@test "another band in place of one always differs" {
+  spectral a.exr --channel S0.500nm --channel S0.600nm
+  spectral b.exr --channel S0.500nm --channel S0.601nm
+  always_differ a.exr b.exr
+}
+
+@test "an extra channel on one side always differs" {
+  spectral a.exr
+  spectral b.exr --extra Z
+  always_differ a.exr b.exr
+  prints "channel 'Z' is only in the first"
+}
+
+@test "another name of a channel always differs" {
+  spectral a.exr --extra Y
+  spectral b.exr --extra Z
+  always_differ a.exr b.exr
+}
+
+@test "a shifted data window always differs" {
+  spectral a.exr --display 0,0,20,20
+  spectral b.exr --display 0,0,20,20 --data 1,0
+  always_differ a.exr b.exr
+  prints 'data windows differ: 1,0,17,8 and 0,0,16,8'
+}
+
+@test "a data window of another height always differs" {
+  spectral a.exr --display 0,0,20,20
+  spectral b.exr --display 0,0,20,20 --size 16x9
+  always_differ a.exr b.exr
+}
+
+@test "another display window always differs" {
+  spectral a.exr --display 0,0,16,8
+  spectral b.exr --display 0,0,16,9
+  always_differ a.exr b.exr
+  prints 'display windows differ: 0,0,16,9 and 0,0,16,8'
+}
+
+@test "light and reflectance always differ" {
+  spectral a.exr --kind S0
+  spectral b.exr --kind T
+  always_differ a.exr b.exr
+}
+
+@test "another spec:quantity always differs" {
+  spectral a.exr --quantity 'radiance per nm'
+  spectral b.exr --quantity 'radiance per band'
+  always_differ a.exr b.exr
+  prints "quantities differ: 'radiance per band' and 'radiance per nm'"
+}
+
+@test "reflectance and transmittance always differ" {
+  spectral a.exr --kind T
+  spectral b.exr --kind T --quantity transmittance
+  always_differ a.exr b.exr
+}
+
+@test "bins and points always differ" {
+  spectral a.exr
+  spectral b.exr --bins
+  always_differ a.exr b.exr
+}
+
+@test "other bins always differ" {
+  spectral a.exr --grid 500:540:20 --attribute 'spec:bins=490 510 530 550'
+  spectral b.exr --grid 500:540:20 --attribute 'spec:bins=490 510 530 551'
+  always_differ a.exr b.exr
+  prints 'bins differ: an edge at 551 nm and at 550 nm'
+}
+
+@test "other Stokes components always differ" {
+  spectral a.exr --kind S0
+  spectral b.exr --kind stokes
+  always_differ a.exr b.exr
+  prints 'Stokes components differ: 4 and 1'
+}
+
+@test "images of no common channel always differ" {
+  spectral a.exr --channel R
+  spectral b.exr --kind T
+  always_differ a.exr b.exr
+}
+
+@test "ids that differ by 1 where floats no longer tell always differ" {
+  # The last id is 2^24; the one after it is the same float.
+  spectral a.exr --size 1x257 --grid 500:520:20 --uint-id --compression none
+  cp a.exr b.exr
+  last_sample b.exr '\x01\x00\x00\x01'
+  always_differ a.exr b.exr
+}
+
+@test "ids are printed as they are" {
+  spectral a.exr --size 1x257 --grid 500:520:20 --uint-id --compression none
+  cp a.exr b.exr
+  last_sample b.exr '\x01\x00\x00\x01'
+  answers 1 specdiff --metric max a.exr b.exr
+  prints "max        1 at 0,256 in 'id': 16777216 and 16777217"
+}
+
+@test "ids that differ by 1 at the end of 32 bits differ" {
+  spectral a.exr --size 1x1 --uint-id --compression none
+  cp a.exr b.exr
+  last_sample a.exr '\xff\xff\xff\xff'
+  last_sample b.exr '\xfe\xff\xff\xff'
+  answers 1 specdiff a.exr b.exr
+  answers 1 specdiff b.exr a.exr
+}
+
+# Numbers in closed form
+
+@test "1 and 1.5 everywhere: rmse 0.5, max 0.5, sam 0, psnr 20 log10 2" {
+  spectral a.exr --pattern constant:1
+  spectral b.exr --pattern constant:1.5
+  answers 1 specdiff a.exr b.exr
+  prints 'rmse       0.5'
+  prints "max        0.5 at 0,0 in 'S0.400,000000nm': 1 and 1.5"
+  prints 'sam        0 rad'
+  prints 'sam-max    0 rad'
+  prints 'psnr       6.0206 dB'
+  prints 'gfc        1'
+  prints 'gfc-min    1'
+}
+
+@test "the peak of psnr is the first image's, or what --peak says" {
+  spectral a.exr --pattern constant:1
+  spectral b.exr --pattern constant:1.5
+  answers 1 specdiff --metric psnr b.exr a.exr
+  prints 'psnr       9.54243 dB' # 20 log10(1.5 / 0.5)
+  answers 1 specdiff --metric psnr --peak 50 a.exr b.exr
+  prints 'psnr       40 dB' # 20 log10(50 / 0.5)
+}
+
+@test "one sample off by 1 of 2048: rmse 1/sqrt(2048), and its place" {
+  spectral a.exr --compression none
+  cp a.exr b.exr
+  last_sample a.exr '\x00\x00\x00\x40' # 2
+  last_sample b.exr '\x00\x00\x40\x40' # 3
+  answers 1 specdiff --metric rmse,max a.exr b.exr
+  [ "$answer" = "rmse       0.0220971
+max        1 at 15,7 in 'S0.700,000000nm': 2 and 3" ] || complain "$answer"
+}
+
+@test "the place of the worst sample counts from the data window's corner" {
+  spectral a.exr --data 100,-20 --compression none
+  cp a.exr b.exr
+  last_sample a.exr '\x00\x00\x00\x40'
+  last_sample b.exr '\x00\x00\x40\x40'
+  answers 1 specdiff --metric max a.exr b.exr
+  prints "max        1 at 15,7 in 'S0.700,000000nm': 2 and 3"
+}
+
+@test "the first sample that is not finite is told, with their number" {
+  spectral a.exr
+  spectral b.exr --pattern nan:2,3,4 --pattern inf:1,5,0
+  answers 1 specdiff --metric max a.exr b.exr
+  # the ramp at 2,3 in band 4: 0.003 + 0.03 + 0.4
+  prints "max        inf at 2,3 in 'S0.480,000000nm': 0.432999998 and nan, the first of 2 that are not finite"
+}
+
+@test "the angle between (0.001, 0.101) and (1, 1) is pi/4 - atan(0.001 / 0.101)" {
+  spectral a.exr --size 1x1 --grid 500:600:100
+  spectral b.exr --size 1x1 --grid 500:600:100 --pattern constant:1
+  answers 1 specdiff --metric sam,gfc a.exr b.exr
+  # 0.785398 - 0.009901 = 0.775497; gfc is its cosine, 0.714073
+  [ "$answer" = 'sam        0.775497 rad
+gfc        0.714073' ] || complain "$answer"
+}
+
+@test "opposite spectra have the angle pi and fit" {
+  spectral a.exr
+  spectral b.exr --pattern negative
+  answers 1 specdiff --metric sam,sam-max,gfc a.exr b.exr
+  [ "$answer" = 'sam        3.14159 rad
+sam-max    3.14159 rad at 0,0
+gfc        1' ] || complain "$answer"
+}
+
+@test "two greys are as far apart as CIEDE2000 has it" {
+  # On the observer's whole range a constant T is a grey of luminance T: L* = 116 T^(1/3) - 16,
+  # here 50.0000 and 51.5191. Of greys CIEDE2000 leaves dL / S_L, with M = L' - 50 = 0.7596 of
+  # their mean L' and S_L = 1 + 0.015 M^2 / sqrt(20 + M^2) = 1.001908: 1.5162584.
+  spectral a.exr --kind T --grid 360:830:5 --pattern constant:0.1841865
+  spectral b.exr --kind T --grid 360:830:5 --pattern constant:0.1972
+  answers 1 specdiff --metric de2000 a.exr b.exr
+  [ "$answer" = 'de2000     1.51626' ] || complain "$answer"
+}
+
+# Tolerances and metrics
+
+@test "a tolerance just above the difference passes, one just below does not" {
+  spectral a.exr --pattern constant:1
+  spectral b.exr --pattern constant:1.5
+  for metric in rmse max; do
+    answers 0 specdiff --tolerance $metric=0.500001 a.exr b.exr
+    answers 0 specdiff --tolerance $metric=0.5 a.exr b.exr
+    answers 1 specdiff --tolerance $metric=0.499999 a.exr b.exr
+  done
+}
+
+@test "a tolerance of psnr and of gfc is the least that passes" {
+  spectral a.exr --size 1x1 --grid 500:600:100
+  spectral b.exr --size 1x1 --grid 500:600:100 --pattern constant:1
+  answers 0 specdiff --tolerance gfc=0.714072 a.exr b.exr
+  answers 1 specdiff --tolerance gfc=0.714074 a.exr b.exr
+  spectral c.exr --pattern constant:1
+  spectral d.exr --pattern constant:1.5
+  answers 0 specdiff --tolerance psnr=6.0205 c.exr d.exr
+  answers 1 specdiff --tolerance psnr=6.0206 c.exr d.exr # 6.02059991
+}
+
+@test "one tolerance that is broken is enough" {
+  spectral a.exr --pattern constant:1
+  spectral b.exr --pattern constant:1.5
+  answers 1 specdiff --tolerance rmse=1 --tolerance max=0.1 a.exr b.exr
+  prints "max        0.5 at 0,0 in 'S0.400,000000nm': 1 and 1.5 (beyond 0.1)"
+  prints 'rmse       0.5'
+}
+
+@test "a tolerance of 0 passes what is the same" {
+  spectral a.exr
+  answers 0 specdiff --tolerance max=0 --tolerance rmse=0 a.exr a.exr
+}
+
+@test "a tolerance of what cannot be measured fails" {
+  # no observer sees 1000 nm
+  spectral a.exr --grid 1000:1100:50
+  run ! specdiff --tolerance de2000=1 a.exr a.exr
+}
+
+@test "only the metrics that are named are printed" {
+  spectral a.exr
+  answers 0 specdiff --metric max,rmse a.exr a.exr
+  [ "$answer" = 'rmse       0
+max        0' ] || complain "$answer"
+}
+
+@test "what is printed does not change what is different" {
+  spectral a.exr --pattern constant:1
+  spectral b.exr --pattern constant:1.5
+  answers 1 specdiff --metric sam a.exr b.exr
+  [ "$answer" = 'sam        0 rad' ] || complain "$answer"
+}
+
+@test "bands that nobody sees are compared without de2000" {
+  spectral a.exr --grid 1000:1100:50
+  answers 0 specdiff a.exr a.exr
+  run ! grep de2000 <<<"$answer"
+}
+
+@test "every number of threads prints the same" {
+  spectral a.exr --size 61x67 --pattern noise
+  spectral b.exr --size 61x67 --pattern grain
+  answers 1 specdiff -j 1 a.exr b.exr
+  one=$answer
+  for threads in 2 3; do
+    answers 1 specdiff -j $threads a.exr b.exr
+    [ "$answer" = "$one" ] || complain "with $threads threads:" "$answer" "with one:" "$one"
+  done
+}
+
+# Input, output and usage
+
+@test "either image can come from standard input" {
+  spectral a.exr
+  cp a.exr b.exr
+  spectral c.exr --pattern negative
+  answers 0 specdiff - a.exr <b.exr
+  answers 0 specdiff a.exr - <b.exr
+  answers 0 specdiff a.exr - < <(cat a.exr)
+  answers 1 specdiff - c.exr < <(cat a.exr)
+}
+
+@test "both images on standard input are refused" {
+  fails_cleanly specdiff - -
+}
+
+@test "both images can come from process substitutions" {
+  spectral a.exr
+  answers 0 specdiff <(cat a.exr) <(cat a.exr)
+}
+
+@test "one image or three are refused" {
+  spectral a.exr
+  fails_cleanly specdiff a.exr
+  fails_cleanly specdiff a.exr a.exr a.exr
+  fails_cleanly specdiff
+}
+
+@test "an unknown metric is refused by name" {
+  spectral a.exr
+  fails_cleanly specdiff --metric rmse,rsme a.exr a.exr
+  [[ $stderr = *rsme* ]]
+  fails_cleanly specdiff --tolerance rsme=1 a.exr a.exr
+  [[ $stderr = *rsme* ]]
+  fails_cleanly specdiff --metric '' a.exr a.exr
+}
+
+@test "a tolerance that is no number is refused" {
+  spectral a.exr
+  for value in '' 1x nan inf -1; do
+    fails_cleanly specdiff --tolerance "max=$value" a.exr a.exr
+  done
+  fails_cleanly specdiff --tolerance max a.exr a.exr
+}
+
+@test "-o is not passed over: the answer goes there, or the option is refused" {
+  spectral a.exr
+  if specdiff -o out.txt a.exr a.exr >printed 2>err; then
+    [ -s out.txt ]
+    [ ! -s printed ]
+  else
+    fails_cleanly specdiff -o out.txt a.exr a.exr
+  fi
+}
+
+@test "a missing file is trouble, on either side" {
+  spectral a.exr
+  fails_cleanly specdiff a.exr missing.exr
+  [[ $stderr = *missing.exr* ]]
+  fails_cleanly specdiff missing.exr a.exr
+}
+
+@test "a short file is trouble, on either side" {
+  spectral a.exr
+  head -c 3000 a.exr >short.exr
+  fails_cleanly specdiff a.exr short.exr
+  [[ $stderr = *short.exr* ]]
+  fails_cleanly specdiff short.exr a.exr
+}
+
+@test "a full device is trouble, with the same and with different images" {
+  spectral a.exr
+  spectral b.exr --pattern negative
+  for other in a b; do
+    code=0
+    specdiff a.exr $other.exr >/dev/full 2>err || code=$?
+    [ "$code" -eq 2 ]
+    [ "$(cat err)" = "specdiff: unable to write '<stdout>': No space left on device" ]
+  done
+}
+
+@test "--help, --version and a wrong option" {
+  answers 0 specdiff --help
+  [[ $answer = 'usage: specdiff [OPTION]... FILE1 FILE2'* ]]
+  answers 0 specdiff --version
+  [[ $answer =~ ^specdiff\ \(spectools\)\ [0-9.]+$ ]]
+  fails_cleanly specdiff --tolerence max=1 a b
+  [[ $stderr = *"did you mean '--tolerance'?" ]]
+}
