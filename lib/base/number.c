@@ -144,6 +144,8 @@ spec_number_parse_length(
 		if (!(value > 0))
 			return spec_error_set(
 				error, SPEC_ERANGE, "%s is not positive: '%s'", what, text);
+		if (!isfinite(value * units[i].nm))
+			break;
 		*length_nm = value * units[i].nm;
 		return SPEC_OK;
 	}

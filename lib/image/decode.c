@@ -101,25 +101,26 @@ decode_chunk(struct spec_decoder *decoder, const struct spec_fetched *chunk,
 {
 	const exr_chunk_info_t *info = &chunk->info;
 	exr_decode_pipeline_t *pipeline = &decoder->pipeline;
-	int stored = info->packed_size == info->unpacked_size;
 	exr_result_t result;
 
 	*bytes = decoder->packed.bytes + chunk->at;
-	if (stored && info->compression != EXR_COMPRESSION_B44 &&
-		info->compression != EXR_COMPRESSION_B44A)
+	/*
+	 * A chunk that did not shrink is stored. OpenEXR's C++ library holds that for
+	 * B44 too, where OpenEXRCore 3.1 does not.
+	 */
+	if (info->packed_size == info->unpacked_size)
 		return SPEC_OK;
 	spec_exr_forget();
 	spec_exr_allow(decoder->reader->limits.memory, "memory");
 	result = start_pipeline(decoder, info);
 	pipeline->packed_buffer = decoder->packed.bytes + chunk->at;
 	pipeline->packed_alloc_size = 0;
-	pipeline->unpacked_buffer = stored ? NULL : room;
-	pipeline->unpacked_alloc_size = stored ? 0 : info->unpacked_size;
+	pipeline->unpacked_buffer = room;
+	pipeline->unpacked_alloc_size = info->unpacked_size;
 	if (result == EXR_ERR_SUCCESS)
 		result = exr_decoding_run(
 			decoder->reader->context, decoder->reader->part, pipeline);
-	if (!stored)
-		*bytes = room;
+	*bytes = room;
 	pipeline->packed_buffer = pipeline->unpacked_buffer = NULL;
 	pipeline->packed_alloc_size = pipeline->unpacked_alloc_size = 0;
 	if (result != EXR_ERR_SUCCESS)

@@ -45,8 +45,6 @@ spec_packer_close(struct spec_packer *packer)
 	if (packer->started) {
 		packer->pipeline.packed_buffer = NULL; /* a slot's */
 		packer->pipeline.packed_alloc_size = 0;
-		if (packer->pipeline.compressed_alloc_size == 0)
-			packer->pipeline.compressed_buffer = NULL;
 		exr_encoding_destroy(packer->writer->context, &packer->pipeline);
 	}
 	if (packer->compressor)
@@ -165,7 +163,7 @@ start_pipeline(struct spec_packer *packer, const exr_chunk_info_t *info)
 	return result;
 }
 
-/* Encodes a chunk and leaves its bytes in the pipeline. */
+/* Encodes a chunk: packer->chunk is what is to be written. */
 static exr_result_t
 encode(struct spec_packer *packer, int index, unsigned char *raw)
 {
@@ -176,11 +174,10 @@ encode(struct spec_packer *packer, int index, unsigned char *raw)
 	exr_chunk_info_t info;
 	exr_result_t result;
 
-	if (writer->compression == EXR_COMPRESSION_NONE) {
-		pipeline->compressed_buffer = raw;
-		pipeline->compressed_bytes = size;
+	packer->chunk = raw;
+	packer->chunk_bytes = size;
+	if (writer->compression == EXR_COMPRESSION_NONE)
 		return EXR_ERR_SUCCESS;
-	}
 	result = exr_write_scanline_chunk_info(writer->context, 0, y, &info);
 	if (result == EXR_ERR_SUCCESS)
 		result = start_pipeline(packer, &info);
@@ -193,6 +190,11 @@ encode(struct spec_packer *packer, int index, unsigned char *raw)
 	result = exr_encoding_run(writer->context, 0, pipeline);
 	pipeline->packed_buffer = NULL;
 	pipeline->packed_alloc_size = 0;
+	/* What does not shrink is stored: readers tell it by its size. */
+	if (pipeline->compressed_bytes < size) {
+		packer->chunk = pipeline->compressed_buffer;
+		packer->chunk_bytes = pipeline->compressed_bytes;
+	}
 	return result;
 }
 
@@ -206,8 +208,8 @@ write_chunk(struct spec_packer *packer, int index, struct spec_error *error)
 	if (!spec_turnstile_enter(&writer->turnstile, index))
 		return spec_turnstile_status(&writer->turnstile, error);
 	spec_exr_forget();
-	result = exr_write_scanline_chunk(writer->context, 0, y,
-		packer->pipeline.compressed_buffer, packer->pipeline.compressed_bytes);
+	result = exr_write_scanline_chunk(
+		writer->context, 0, y, packer->chunk, packer->chunk_bytes);
 	if (result != EXR_ERR_SUCCESS || spec_exr_has_note()) {
 		struct spec_error own;
 		enum spec_status status =

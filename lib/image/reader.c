@@ -345,7 +345,8 @@ open_reader(struct spec_reader *reader, const char *path,
 	if (status == SPEC_OK)
 		status = check_magic(reader, error);
 	if (status == SPEC_OK)
-		status = spec_scan_channels(&reader->source, settings->limits.channels, error);
+		status = spec_scan_channels(
+			&reader->source, settings->limits.channels, error);
 	if (status == SPEC_OK)
 		status = start(reader, error);
 	if (status == SPEC_OK && exr_get_count(reader->context, &parts) != EXR_ERR_SUCCESS)

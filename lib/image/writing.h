@@ -41,6 +41,9 @@ struct spec_packer {
 	exr_encode_pipeline_t pipeline;
 	int started;
 	struct libdeflate_compressor *compressor;
+	const void *
+		chunk; /* encoded: in the pipeline or, where that is no smaller, the slot */
+	size_t chunk_bytes;
 	float **plane;
 	float *row; /* where planes do not lie in the chunk */
 };
