@@ -141,12 +141,11 @@ spec_number_parse_length(
 	for (size_t i = 0; length > 0 && i < sizeof units / sizeof units[0]; i++) {
 		if (strcmp(text + length, units[i].suffix) != 0)
 			continue;
-		if (!(value > 0))
-			return spec_error_set(
-				error, SPEC_ERANGE, "%s is not positive: '%s'", what, text);
-		if (!isfinite(value * units[i].nm))
-			break;
-		*length_nm = value * units[i].nm;
+		value *= units[i].nm;
+		if (!(value > 0) || !isfinite(value))
+			return spec_error_set(error, SPEC_ERANGE,
+				"%s is not positive and finite: '%s'", what, text);
+		*length_nm = value;
 		return SPEC_OK;
 	}
 	return spec_error_set(error, SPEC_EUSAGE,
