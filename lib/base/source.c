@@ -229,6 +229,12 @@ spec_source_seal(struct spec_source *source)
 	source->sealed = 1;
 }
 
+enum spec_status
+spec_source_drain(struct spec_source *source, struct spec_error *error)
+{
+	return source->seekable ? SPEC_OK : skip(source, INT64_MAX, error);
+}
+
 static enum spec_status
 copy_rest(struct spec_source *source, struct spec_output *scratch, struct spec_error *error)
 {

@@ -48,6 +48,12 @@ enum spec_status spec_source_read(struct spec_source *source, void *data, size_t
 /* From now on a stream only moves forward; its head is freed once it is passed. */
 void spec_source_seal(struct spec_source *source);
 
+/*
+ * Reads a stream to its end and drops it, so that who writes it is not killed by
+ * SIGPIPE for having more to say than was needed. Does nothing to a file.
+ */
+enum spec_status spec_source_drain(struct spec_source *source, struct spec_error *error);
+
 /* Copies what remains of a stream, head and all, to a scratch file and reads that from now on. */
 enum spec_status spec_source_spool(struct spec_source *source, struct spec_error *error);
 

@@ -396,6 +396,12 @@ spec_reader_close(struct spec_reader *reader)
 	free(reader);
 }
 
+enum spec_status
+spec_reader_drain(struct spec_reader *reader, struct spec_error *error)
+{
+	return spec_source_drain(&reader->source, error);
+}
+
 const struct spec_image *
 spec_reader_image(const struct spec_reader *reader)
 {

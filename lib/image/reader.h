@@ -21,6 +21,9 @@ enum spec_status spec_reader_open(struct spec_reader **reader, const char *path,
 	const struct spec_settings *settings, struct spec_error *error);
 void spec_reader_close(struct spec_reader *reader);
 
+/* After the last line that was wanted: lets a pipe's writer finish. */
+enum spec_status spec_reader_drain(struct spec_reader *reader, struct spec_error *error);
+
 const struct spec_image *spec_reader_image(const struct spec_reader *reader);
 const char *spec_reader_name(const struct spec_reader *reader);
 

@@ -240,5 +240,9 @@ spec_stream_run(struct spec_stream *stream, const struct spec_settings *settings
 	worked = spec_turnstile_status(&run.turnstile, status == SPEC_OK ? error : NULL);
 	spec_turnstile_destroy(&run.turnstile);
 	pthread_mutex_destroy(&run.take);
-	return status != SPEC_OK ? status : worked;
+	if (status == SPEC_OK)
+		status = worked;
+	for (int i = 0; i < stream->readers && status == SPEC_OK; i++)
+		status = spec_reader_drain(stream->reader[i], error);
+	return status;
 }

@@ -316,3 +316,9 @@ on_a_broken_pipe() {
   # 16 MB of pixels and 64 MB: within 10 % means that none of the difference was kept
   [ $((10 * tall)) -le $((11 * small)) ] || complain "$small KiB, at four times the height $tall KiB"
 }
+
+@test "a crop lets its upstream finish: no stage of the pipe is killed" {
+  spectral a.exr --size 64x400
+  specconvert a.exr | specconvert --crop 0,0,64,1 -o b.exr
+  [ "${PIPESTATUS[*]}" = "0 0" ] || complain "${PIPESTATUS[*]}"
+}
