@@ -145,8 +145,8 @@ $(TESTHELPERS): $(BUILD)/tests/%: $(BUILD)/obj/tests/helper/%.o $(LIBRARY)
 
 # Running.
 
-check: all $(UNITTESTS) $(TESTHELPERS)
-	@tests/check $(BUILD) unit rooms bats pages
+check: all $(UNITTESTS) $(TESTHELPERS) $(BUILD)/tests/faults.so
+	@tests/check $(BUILD) unit rooms bats pages faults
 
 unit: $(UNITTESTS) $(PLUGIN) $(DATA)
 	@tests/check $(BUILD) unit
@@ -158,7 +158,7 @@ bench: all $(BENCHMARKS) $(TESTHELPERS)
 	@tests/bench/run $(BUILD)
 
 # A fragment adds its pictures to FIGURES and says how each is made.
--include $(wildcard tests/figures/*.mk) tests/fuzz/fuzz.mk
+-include $(wildcard tests/figures/*.mk) tests/fuzz/fuzz.mk tests/faults/faults.mk
 figures: $(FIGURES)
 
 # Looking at the source; each step stands alone, and lint is all of them.

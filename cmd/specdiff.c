@@ -355,7 +355,7 @@ print_report(const struct job *job, const struct spec_images *result,
 	*different = result->structure[0] != '\0';
 	if (result->comparable)
 		*different |= print_metrics(report, job, result, image);
-	if (fclose(report) != 0) {
+	if (fclose(report) != 0 || !text) {
 		free(text);
 		return spec_error_set(error, SPEC_ENOMEM, "out of memory for a report");
 	}

@@ -262,21 +262,34 @@ give_name(struct spec_output *output, struct spec_error *error)
 	return spec_error_system(error, errno, "unable to create '%s'", output->path);
 }
 
+/*
+ * What the system has put off is told by close. Of standard output a copy is closed:
+ * should that fail, the file can still be emptied; the rest is the process's end.
+ */
+static enum spec_status
+close_checked(struct spec_output *output, struct spec_error *error)
+{
+	int fd = output->standard ? fcntl(output->fd, F_DUPFD_CLOEXEC, 3) : output->fd;
+
+	if (fd < 0)
+		return write_failed(output, errno, error);
+	if (!output->standard)
+		output->fd = -1;
+	return close(fd) < 0 ? write_failed(output, errno, error) : SPEC_OK;
+}
+
 enum spec_status
 spec_output_commit(struct spec_output *output, struct spec_error *error)
 {
 	enum spec_status status = SPEC_OK;
-	int fd = output->fd;
 
 	if (output->target && !output->temporary)
 		status = give_name(output, error);
-	if (status == SPEC_OK) {
-		output->fd = -1;
-		if (close(fd) < 0)
-			status = write_failed(output, errno, error);
-		else if (output->target && rename(output->temporary, output->target) < 0)
-			status = write_failed(output, errno, error);
-	}
+	if (status == SPEC_OK)
+		status = close_checked(output, error);
+	if (status == SPEC_OK && output->target &&
+		rename(output->temporary, output->target) < 0)
+		status = write_failed(output, errno, error);
 	if (status != SPEC_OK) {
 		spec_output_abandon(output);
 		return status;

@@ -54,11 +54,20 @@ peek_pipe(int fd)
 {
 	unsigned char byte;
 	int copy[2], result = -1;
+	ssize_t got;
 
 	if (pipe2(copy, O_CLOEXEC) < 0)
 		return -1;
-	if (tee(fd, copy[1], 1, 0) == 1 && read(copy[0], &byte, 1) == 1)
-		result = byte;
+	do {
+		got = tee(fd, copy[1], 1, 0);
+	} while (got < 0 && errno == EINTR);
+	if (got == 1) {
+		do {
+			got = read(copy[0], &byte, 1);
+		} while (got < 0 && errno == EINTR);
+		if (got == 1)
+			result = byte;
+	}
 	close(copy[0]);
 	close(copy[1]);
 	return result;

@@ -187,13 +187,14 @@ edges_from_attribute(struct spec_image *image, const char *text, const char *nam
 static enum spec_status
 find_edges(struct spec_image *image, const char *name, struct spec_error *error)
 {
-	char *text = spec_image_text(image, "spec:bins");
 	enum spec_status status;
+	char *text;
 
-	if (image->bands == 0) {
-		free(text);
+	if (image->bands == 0)
 		return SPEC_OK;
-	}
+	status = spec_image_text(image, "spec:bins", &text, error);
+	if (status != SPEC_OK)
+		return status;
 	status = text ? edges_from_attribute(image, text, name, error)
 		      : edges_from_names(image, error);
 	free(text);

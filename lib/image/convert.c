@@ -364,14 +364,19 @@ plan_terms(struct spec_convert *convert, const struct spec_convert_setup *setup,
 	return status;
 }
 
-static int
-is_per_band(const struct spec_image *input)
+static enum spec_status
+refuse_per_band(const struct spec_image *input, const char *name, struct spec_error *error)
 {
-	char *quantity = spec_image_text(input, "spec:quantity");
+	char *quantity = spec_image_quantity(input, error);
 	int per_band = quantity && strstr(quantity, "per band");
 
+	if (!quantity)
+		return SPEC_ENOMEM;
 	free(quantity);
-	return per_band;
+	if (!per_band)
+		return SPEC_OK;
+	return spec_error_set(error, SPEC_EUNSUPPORTED,
+		"%s: its values are per band; they cannot be interpolated", name);
 }
 
 static enum spec_status
@@ -383,9 +388,6 @@ check_setup(const struct spec_image *input, const struct spec_convert_setup *set
 	if (input->bands == 0 && spectral)
 		return spec_error_set(
 			error, SPEC_EFORMAT, "%s: has no spectral channel", name);
-	if (setup->grid && is_per_band(input))
-		return spec_error_set(error, SPEC_EUNSUPPORTED,
-			"%s: its values are per band; they cannot be interpolated", name);
 	if (setup->illuminate && input->role != SPEC_ROLE_REFLECTIVE)
 		return spec_error_set(error, SPEC_EUSAGE,
 			"%s: only reflectance (T) can be illuminated", name);
@@ -394,7 +396,7 @@ check_setup(const struct spec_image *input, const struct spec_convert_setup *set
 			"%s: is bispectral; its grid cannot be changed (--illuminate it "
 			"first)",
 			name);
-	return SPEC_OK;
+	return setup->grid ? refuse_per_band(input, name, error) : SPEC_OK;
 }
 
 enum spec_status

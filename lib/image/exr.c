@@ -298,6 +298,8 @@ set_attribute(exr_context_t context, int part, const struct spec_attribute *from
 		memcpy(bytes, from->value, size);
 		return EXR_ERR_SUCCESS;
 	}
+	if (from->size == 0)
+		return EXR_ERR_SUCCESS; /* the library would leak an empty copy */
 	return exr_attr_set_user(
 		context, part, from->name, from->type, (int32_t)from->size, from->value);
 }

@@ -61,9 +61,11 @@ spec_image_add_history(
 	struct spec_image *image, int argc, char **argv, struct spec_error *error)
 {
 	struct text text = {0};
-	char *before = spec_image_text(image, "spec:history");
-	enum spec_status status;
+	char *before;
+	enum spec_status status = spec_image_text(image, "spec:history", &before, error);
 
+	if (status != SPEC_OK)
+		return status;
 	if (before && *before) {
 		append(&text, before, strlen(before), error);
 		if (before[strlen(before) - 1] != '\n')

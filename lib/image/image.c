@@ -195,14 +195,17 @@ spec_image_set_text(struct spec_image *image, const char *name, const char *text
 	return spec_image_set_attribute(image, name, "string", text, strlen(text), error);
 }
 
-char *
-spec_image_text(const struct spec_image *image, const char *name)
+enum spec_status
+spec_image_text(const struct spec_image *image, const char *name, char **text,
+	struct spec_error *error)
 {
 	const struct spec_attribute *attribute = spec_image_attribute(image, name);
 
+	*text = NULL;
 	if (!attribute || strcmp(attribute->type, "string") != 0)
-		return NULL;
-	return spec_memory_text((const char *)attribute->value, attribute->size, NULL);
+		return SPEC_OK;
+	*text = spec_memory_text((const char *)attribute->value, attribute->size, error);
+	return *text ? SPEC_OK : SPEC_ENOMEM;
 }
 
 char *
@@ -211,7 +214,9 @@ spec_image_quantity(const struct spec_image *image, struct spec_error *error)
 	const char *standard = image->role == SPEC_ROLE_EMISSIVE     ? "radiance per nm"
 			       : image->role == SPEC_ROLE_REFLECTIVE ? "reflectance"
 								     : "";
-	char *quantity = spec_image_text(image, "spec:quantity");
+	char *quantity;
 
+	if (spec_image_text(image, "spec:quantity", &quantity, error) != SPEC_OK)
+		return NULL;
 	return quantity ? quantity : spec_memory_text(standard, strlen(standard), error);
 }

@@ -128,8 +128,12 @@ enum spec_status spec_image_set_text(struct spec_image *image, const char *name,
 
 void spec_image_remove_attribute(struct spec_image *image, const char *name);
 
-/* A string attribute's text, newly allocated; null where there is none or memory is out. */
-char *spec_image_text(const struct spec_image *image, const char *name);
+/*
+ * A string attribute's text, newly allocated, or null where there is none. Error:
+ * SPEC_ENOMEM alone.
+ */
+enum spec_status spec_image_text(const struct spec_image *image, const char *name,
+	char **text, struct spec_error *error);
 
 /*
  * What a sample means: the text of spec:quantity, or, without it, the default of

@@ -25,8 +25,9 @@ read_bytes(exr_const_context_t context, void *data, void *buffer, uint64_t size,
 	(void)report;
 	if (spec_source_read(&reader->source, buffer, size, (int64_t)offset, &got,
 		    &error) != SPEC_OK) {
+		/* Not -1: the library would take it for a length and write before the buffer. */
 		spec_exr_note(&error);
-		return -1;
+		return 0;
 	}
 	if (got < size && reader->source.sealed) {
 		spec_error_set(&error, SPEC_EFORMAT, "%s: ends early", reader->source.name);

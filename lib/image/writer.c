@@ -1,5 +1,6 @@
 #include "image/writer.h"
 
+#include <errno.h>
 #include <openexr.h>
 #include <stdlib.h>
 #include <string.h>
@@ -269,9 +270,13 @@ copy_scratch(struct spec_writer *writer, struct spec_error *error)
 
 	while (status == SPEC_OK && got > 0) {
 		got = pread(writer->scratch.fd, buffer, COPY_BYTES, offset);
+		if (got < 0 && errno == EINTR) {
+			got = 1;
+			continue;
+		}
 		if (got < 0)
-			status = spec_error_set(
-				error, SPEC_EIO, "unable to read back a temporary file");
+			status = spec_error_system(
+				error, errno, "unable to read back a temporary file");
 		else
 			status = spec_output_write(writer->output, buffer, got, error);
 		offset += got;

@@ -537,7 +537,7 @@ spec_spd_save(const char *path, const struct spec_curve *curve, struct spec_erro
 	if (!memory)
 		return spec_error_set(error, SPEC_ENOMEM, "out of memory for a text");
 	status = spec_spd_write(memory, curve, error);
-	if (fclose(memory) != 0 && status == SPEC_OK)
+	if ((fclose(memory) != 0 || !text) && status == SPEC_OK)
 		status = spec_error_set(error, SPEC_ENOMEM, "out of memory for a text");
 	if (status == SPEC_OK)
 		status = spec_output_save(path, text, size, error);
