@@ -63,6 +63,14 @@ ALLCFLAGS = -std=c11 $(CFLAGS) $(MATHFLAGS) $(WARNFLAGS) $(CWARNFLAGS) $(SANFLAG
 ALLCXXFLAGS = -std=c++17 $(CXXFLAGS) $(MATHFLAGS) $(WARNFLAGS) $(SANFLAGS) -pthread -fPIC
 ALLLDFLAGS = $(SANFLAGS) $(LDFLAGS)
 
+# 'make V=1' shows the commands whole.
+ifeq ($(V),)
+QUIET = @
+SAY = @printf '  %-4s %s\n'
+else
+SAY = @:
+endif
+
 # Where packages are installed in the same run, that comes before anything is compiled or run.
 READY = $(filter deps %-deps,$(MAKECMDGOALS))
 ifneq ($(filter clean,$(MAKECMDGOALS)),)
@@ -85,7 +93,7 @@ help:
 	@echo '                installs what that needs'
 	@echo 'make install    into PREFIX (default /usr/local), below DESTDIR'
 	@echo 'make uninstall  take it away again'
-	@echo 'make clean      remove build/'
+	@echo 'make clean      remove build/; V=1 with any target shows the commands whole'
 
 # Building. Two files record what the rest was made with: after other flags everything is
 # compiled anew, after another list of objects the library is made anew.
@@ -105,42 +113,50 @@ $(BUILD)/flags $(BUILD)/objects:
 
 $(BUILD)/obj/%.o: %.c $(BUILD)/flags | $(READY)
 	@mkdir -p $(@D)
-	$(CC) $(ALLCFLAGS) $(CPPFLAGS) $(EXRFLAGS) -MMD -MP -c -o $@ $<
+	$(SAY) cc $<
+	$(QUIET)$(CC) $(ALLCFLAGS) $(CPPFLAGS) $(EXRFLAGS) -MMD -MP -c -o $@ $<
 
 $(BUILD)/obj/%.o: %.cpp $(BUILD)/flags | $(READY)
 	@mkdir -p $(@D)
-	$(CXX) $(ALLCXXFLAGS) $(CPPFLAGS) $(OIIOFLAGS) -MMD -MP -c -o $@ $<
+	$(SAY) c++ $<
+	$(QUIET)$(CXX) $(ALLCXXFLAGS) $(CPPFLAGS) $(OIIOFLAGS) -MMD -MP -c -o $@ $<
 
 $(LIBRARY): $(LIBOBJECTS) $(BUILD)/objects
 	@rm -f $@
-	$(AR) qcs $@ $(LIBOBJECTS)
+	$(SAY) ar $@
+	$(QUIET)$(AR) qcs $@ $(LIBOBJECTS)
 
 # OpenImageIO costs 0.2 s at every start: it is loaded only when it is needed.
 $(PLUGIN): $(BUILD)/obj/lib/image/pictures.o
 	@mkdir -p $(@D)
-	$(CXX) $(ALLLDFLAGS) -shared -o $@ $^ $(OIIOLIBS)
+	$(SAY) link $@
+	$(QUIET)$(CXX) $(ALLLDFLAGS) -shared -o $@ $^ $(OIIOLIBS)
 
 # The tools find their data and plugin beside themselves, here as when installed.
 $(DATA):
 	@mkdir -p $(@D)
 	ln -sfn $(CURDIR)/spectra $@
 
-LINK = $(CC) $(ALLLDFLAGS) -o $@ $^ $(LDLIBS)
+LINK = $(QUIET)$(CC) $(ALLLDFLAGS) -o $@ $^ $(LDLIBS)
 
 $(PROGRAMS): $(BUILD)/bin/%: $(BUILD)/obj/cmd/%.o $(LIBRARY)
 	@mkdir -p $(@D)
+	$(SAY) link $@
 	$(LINK)
 
 $(UNITTESTS): $(BUILD)/tests/%: $(BUILD)/obj/tests/unit/%.o $(LIBRARY)
 	@mkdir -p $(@D)
+	$(SAY) link $@
 	$(LINK) -lcmocka
 
 $(BENCHMARKS): $(BUILD)/tests/bench-%: $(BUILD)/obj/tests/bench/%.o $(LIBRARY)
 	@mkdir -p $(@D)
+	$(SAY) link $@
 	$(LINK)
 
 $(TESTHELPERS): $(BUILD)/tests/%: $(BUILD)/obj/tests/helper/%.o $(LIBRARY)
 	@mkdir -p $(@D)
+	$(SAY) link $@
 	$(LINK)
 
 # Running.

@@ -5,5 +5,6 @@ FAULTSHIM = $(BUILD)/tests/faults.so
 
 $(FAULTSHIM): tests/faults/faults.c | $(READY)
 	@mkdir -p $(@D)
-	$(CC) -std=c11 -O2 -g $(WARNFLAGS) $(CWARNFLAGS) -D_GNU_SOURCE -fPIC -fno-builtin \
+	$(SAY) link $@
+	$(QUIET)$(CC) -std=c11 -O2 -g $(WARNFLAGS) $(CWARNFLAGS) -D_GNU_SOURCE -fPIC -fno-builtin \
 		-pthread -shared -o $@ $< -ldl
