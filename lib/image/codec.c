@@ -15,54 +15,92 @@
  * replaced by its difference from the one before, plus 128.
  */
 
-/* Running sums: turns differences back into bytes, in place. */
-static void
-undo_differences(unsigned char *byte, size_t count)
+#if defined(__SSE2__)
+/* The sum of bytes, modulo 256 all that is wanted of it. */
+static unsigned
+sum_bytes(const unsigned char *byte, size_t count)
 {
-	unsigned previous = 0;
+	__m128i sum = _mm_setzero_si128();
+	unsigned rest = 0;
 	size_t i = 0;
 
-#if defined(__SSE2__)
-	const __m128i offset = _mm_set1_epi8(-128);
-	__m128i carry = _mm_set1_epi8(-128); /* the first byte has no offset: undo it */
-
-	for (; i + 16 <= count; i += 16) {
-		__m128i sum = _mm_add_epi8(
-			_mm_loadu_si128((__m128i *)(void *)(byte + i)), offset);
-
-		sum = _mm_add_epi8(sum, _mm_slli_si128(sum, 1));
-		sum = _mm_add_epi8(sum, _mm_slli_si128(sum, 2));
-		sum = _mm_add_epi8(sum, _mm_slli_si128(sum, 4));
-		sum = _mm_add_epi8(sum, _mm_slli_si128(sum, 8));
-		sum = _mm_add_epi8(sum, carry);
-		_mm_storeu_si128((__m128i *)(void *)(byte + i), sum);
-		carry = _mm_set1_epi8((char)byte[i + 15]);
-	}
-#endif
-	previous = i > 0 ? byte[i - 1] : 128;
-	for (; i < count; i++) {
-		previous = previous + byte[i] - 128;
-		byte[i] = (unsigned char)previous;
-	}
+	for (; i + 16 <= count; i += 16)
+		sum = _mm_add_epi64(sum,
+			_mm_sad_epu8(
+				_mm_loadu_si128((const __m128i *)(const void *)(byte + i)),
+				_mm_setzero_si128()));
+	for (; i < count; i++)
+		rest += byte[i];
+	return rest + (unsigned)_mm_cvtsi128_si32(sum) +
+	       (unsigned)_mm_cvtsi128_si32(_mm_srli_si128(sum, 8));
 }
 
-static void
-interleave(unsigned char *to, const unsigned char *from, size_t count)
+/* Sixteen running sums, each of the differences up to it, from carry on in every byte. */
+static __m128i
+run_sums(const unsigned char *difference, __m128i carry)
 {
-	const unsigned char *even = from, *odd = from + (count + 1) / 2;
-	size_t i = 0;
+	__m128i sum =
+		_mm_add_epi8(_mm_loadu_si128((const __m128i *)(const void *)difference),
+			_mm_set1_epi8(-128));
+
+	sum = _mm_add_epi8(sum, _mm_slli_si128(sum, 1));
+	sum = _mm_add_epi8(sum, _mm_slli_si128(sum, 2));
+	sum = _mm_add_epi8(sum, _mm_slli_si128(sum, 4));
+	sum = _mm_add_epi8(sum, _mm_slli_si128(sum, 8));
+	return _mm_add_epi8(sum, carry);
+}
+
+/* The last of sixteen bytes, in all of them. */
+static __m128i
+spread_last(__m128i bytes)
+{
+	return _mm_set1_epi8((char)(_mm_extract_epi16(bytes, 7) >> 8));
+}
+#endif
+
+/*
+ * Turns differences back into bytes and puts them in their places. Both halves are
+ * run at once, which saves a pass over memory: the odd one goes on from the last byte
+ * of the even one, which is the sum of that half.
+ */
+static void
+undo_predictor(unsigned char *to, const unsigned char *from, size_t count)
+{
+	size_t half = (count + 1) / 2, i = 0;
+	const unsigned char *even = from, *odd = from + half;
+	unsigned a = 128, b = 128; /* the first difference of all is a byte as it is */
 
 #if defined(__SSE2__)
-	for (; i + 32 <= count; i += 32) {
-		__m128i a = _mm_loadu_si128((const __m128i *)(const void *)(even + i / 2));
-		__m128i b = _mm_loadu_si128((const __m128i *)(const void *)(odd + i / 2));
+	__m128i even_carry = _mm_set1_epi8(-128), odd_carry;
 
-		_mm_storeu_si128((__m128i *)(void *)(to + i), _mm_unpacklo_epi8(a, b));
-		_mm_storeu_si128((__m128i *)(void *)(to + i + 16), _mm_unpackhi_epi8(a, b));
+	b = (sum_bytes(even, half) - 128 * (unsigned)(half - 1)) & 255;
+	odd_carry = _mm_set1_epi8((char)b);
+	for (; i + 16 <= count / 2; i += 16) {
+		__m128i x = run_sums(even + i, even_carry),
+			y = run_sums(odd + i, odd_carry);
+
+		_mm_storeu_si128((__m128i *)(void *)(to + 2 * i), _mm_unpacklo_epi8(x, y));
+		_mm_storeu_si128(
+			(__m128i *)(void *)(to + 2 * i + 16), _mm_unpackhi_epi8(x, y));
+		even_carry = spread_last(x);
+		odd_carry = spread_last(y);
 	}
+	if (i > 0) {
+		a = to[2 * i - 2];
+		b = to[2 * i - 1];
+	}
+#else
+	for (size_t k = 0; k < half; k++)
+		b += even[k] - 128u;
 #endif
-	for (; i < count; i++)
-		to[i] = i % 2 == 0 ? even[i / 2] : odd[i / 2];
+	for (; i < half; i++) {
+		a += even[i] - 128u;
+		to[2 * i] = (unsigned char)a;
+		if (2 * i + 1 < count) {
+			b += odd[i] - 128u;
+			to[2 * i + 1] = (unsigned char)b;
+		}
+	}
 }
 
 static void
@@ -120,8 +158,7 @@ spec_codec_inflate(exr_decode_pipeline_t *pipeline)
 		    pipeline->packed_buffer, packed, pipeline->scratch_buffer_1, size,
 		    NULL) != LIBDEFLATE_SUCCESS)
 		return EXR_ERR_CORRUPT_CHUNK;
-	undo_differences(pipeline->scratch_buffer_1, size);
-	interleave(pipeline->unpacked_buffer, pipeline->scratch_buffer_1, size);
+	undo_predictor(pipeline->unpacked_buffer, pipeline->scratch_buffer_1, size);
 	return EXR_ERR_SUCCESS;
 }
 
