@@ -10,7 +10,7 @@
 #include "colour/observer.h"
 #include "image/stream.h"
 
-#define SAME_NM 1e-3 /* names of six and of three decimals are the same band */
+#define SAME_NM 1e-3 /* edges of bins closer than this are the same */
 
 /* The channels that are measured: A's and B's, pair by pair. */
 struct pairs {
@@ -77,21 +77,27 @@ compare_quantities(struct spec_images *result, const struct spec_image *a,
 	return status;
 }
 
+static int
+same_band(const struct spec_image *a, const struct spec_image *b, size_t i)
+{
+	int same;
+
+	return spec_image_nearest_band(a, b->wavelength_nm[i], &same) == i && same;
+}
+
 /* Whether the bands can be paired. */
 static int
 compare_bands(
 	struct spec_images *result, const struct spec_image *a, const struct spec_image *b)
 {
 	size_t i = 0;
-
 	int paired = 0;
 
 	if (a->role != b->role)
 		return 0;
 	if (a->stokes != b->stokes)
 		say(result, "Stokes components differ: %d and %d\n", a->stokes, b->stokes);
-	while (i < a->bands && i < b->bands &&
-		fabs(a->wavelength_nm[i] - b->wavelength_nm[i]) <= SAME_NM)
+	while (i < a->bands && i < b->bands && same_band(a, b, i))
 		i++;
 	if (i < a->bands && (i >= b->bands || a->wavelength_nm[i] < b->wavelength_nm[i]))
 		say(result,
@@ -116,16 +122,6 @@ compare_bands(
 		}
 	}
 	return paired;
-}
-
-static size_t
-find_channel(const struct spec_image *image, const char *name)
-{
-	for (size_t i = 0; i < image->channels; i++) {
-		if (strcmp(image->channel[i].name, name) == 0)
-			return i;
-	}
-	return image->channels;
 }
 
 /* A band's whole numbers come out of the decoder as floats, others as they are. */
@@ -157,7 +153,7 @@ pair_channels(struct spec_images *result, const struct spec_image *a,
 	if (!pairs->a || !pairs->b)
 		return SPEC_ENOMEM;
 	for (size_t i = 0; i < a->channels; i++) {
-		size_t partner = find_channel(b, a->channel[i].name);
+		size_t partner = spec_image_find_channel(b, a->channel[i].name);
 
 		if (is_other(a, i) != others)
 			continue;
@@ -175,7 +171,7 @@ pair_channels(struct spec_images *result, const struct spec_image *a,
 	}
 	for (size_t i = 0; i < b->channels; i++) {
 		if (is_other(b, i) == others &&
-			find_channel(a, b->channel[i].name) == a->channels)
+			spec_image_find_channel(a, b->channel[i].name) == a->channels)
 			say(result, "channel '%s' is only in the second\n",
 				b->channel[i].name);
 	}
@@ -438,6 +434,11 @@ spec_images_compare(struct spec_images *result, struct spec_reader *a,
 		status = measure(&comparison, a, b, settings, error);
 	else
 		result->comparable = 0;
+	/* What was not looked at: the writer of a pipe must not be killed for that. */
+	if (status == SPEC_OK && !result->comparable)
+		status = spec_reader_drain(a, error);
+	if (status == SPEC_OK && !result->comparable)
+		status = spec_reader_drain(b, error);
 	free_pairs(&comparison.bands);
 	free_pairs(&comparison.others);
 	free(comparison.weight_xyz);

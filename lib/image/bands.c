@@ -9,7 +9,8 @@
 #include "image/image.h"
 #include "image/names.h"
 
-#define SAME_NM 1e-3 /* names of six and of three decimals are the same band */
+#define SAME_NM 1e-3    /* names of six and of three decimals are the same band */
+#define SAME_SHARE 0.25 /* of the way to the next band, where that is less */
 
 struct band {
 	double wavelength_nm;
@@ -201,14 +202,48 @@ find_edges(struct spec_image *image, const char *name, struct spec_error *error)
 	return status;
 }
 
+size_t
+spec_image_nearest_band(const struct spec_image *image, double wavelength_nm, int *same)
+{
+	const double *known = image->wavelength_nm;
+	size_t low = 0, high = image->bands - 1;
+	double tolerance = SAME_NM;
+
+	while (high - low > 1) {
+		size_t middle = (low + high) / 2;
+
+		if (known[middle] <= wavelength_nm)
+			low = middle;
+		else
+			high = middle;
+	}
+	if (fabs(known[high] - wavelength_nm) < fabs(known[low] - wavelength_nm))
+		low = high;
+	if (low > 0)
+		tolerance = fmin(tolerance, SAME_SHARE * (known[low] - known[low - 1]));
+	if (low + 1 < image->bands)
+		tolerance = fmin(tolerance, SAME_SHARE * (known[low + 1] - known[low]));
+	*same = fabs(known[low] - wavelength_nm) <= tolerance;
+	return low;
+}
+
+size_t
+spec_image_find_channel(const struct spec_image *image, const char *name)
+{
+	struct spec_channel key = {.name = (char *)name};
+	const struct spec_channel *found =
+		bsearch(&key, image->channel, image->channels, sizeof key, compare_names);
+
+	return found ? (size_t)(found - image->channel) : image->channels;
+}
+
 static int
 has_band(const struct spec_image *image, double wavelength_nm)
 {
-	for (size_t i = 0; i < image->bands; i++) {
-		if (fabs(image->wavelength_nm[i] - wavelength_nm) < SAME_NM)
-			return 1;
-	}
-	return 0;
+	int same;
+
+	spec_image_nearest_band(image, wavelength_nm, &same);
+	return same;
 }
 
 /* Light that leaves at a wavelength without a band would be lost. */

@@ -7,8 +7,7 @@
 
 #include "base/memory.h"
 
-#define SAME_NM 1e-3 /* a band asked for by its wavelength may be off by this much */
-#define RUN 256      /* pixels summed at a time */
+#define RUN 256 /* pixels summed at a time */
 
 static enum spec_status
 add_term(struct spec_convert *convert, size_t channel, double weight,
@@ -88,40 +87,41 @@ match_bands(const struct spec_image *input, const struct spec_grid *wanted,
 
 	for (size_t i = 0; i < wanted->count && status == SPEC_OK; i++) {
 		double target = wanted->wavelength_nm[i];
-		size_t best = 0;
+		int same;
+		size_t band = spec_image_nearest_band(input, target, &same);
 
-		for (size_t j = 1; j < input->bands; j++) {
-			if (fabs(input->wavelength_nm[j] - target) <
-				fabs(input->wavelength_nm[best] - target))
-				best = j;
-		}
-		found->wavelength_nm[i] = input->wavelength_nm[best];
-		if (fabs(input->wavelength_nm[best] - target) > SAME_NM)
+		found->wavelength_nm[i] = input->wavelength_nm[band];
+		if (!same)
 			status = spec_error_set(error, SPEC_ERANGE,
-				"%s: has no band at %g nm; the nearest is at %g nm (--grid "
-				"interpolates)",
-				name, target, input->wavelength_nm[best]);
+				"%s: has no band at %g nm; the nearest is at %g nm (--grid interpolates)",
+				name, target, input->wavelength_nm[band]);
 	}
 	return status;
 }
 
-/* Bins stay bins only where the bands stay as they are. */
+/* Bins stay bins only where the bands stay as they are, without gaps between them. */
 static enum spec_status
 settle_bins(struct spec_convert *convert, const struct spec_grid *grid,
 	struct spec_error *error)
 {
 	const struct spec_image *input = convert->input;
-	double edges_nm[2];
+	size_t first = 0, count = 0;
 
 	if (!input->edges_nm || !grid)
 		return SPEC_OK;
-	for (size_t i = 0; grid->count == 1 && i < input->bands; i++) {
-		if (fabs(input->wavelength_nm[i] - grid->wavelength_nm[0]) > SAME_NM)
-			continue;
-		edges_nm[0] = input->edges_nm[i];
-		edges_nm[1] = input->edges_nm[i + 1];
-		return spec_image_set_bins(&convert->image, edges_nm, 1, error);
+	for (; count < grid->count; count++) {
+		int same;
+		size_t band =
+			spec_image_nearest_band(input, grid->wavelength_nm[count], &same);
+
+		if (count == 0)
+			first = band;
+		if (!same || band != first + count)
+			break;
 	}
+	if (count == grid->count)
+		return spec_image_set_bins(
+			&convert->image, input->edges_nm + first, count, error);
 	return spec_image_set_bins(&convert->image, NULL, 0, error);
 }
 
@@ -241,6 +241,16 @@ power_at(const struct spec_convert_setup *setup, double wavelength_nm, double *p
 		setup->illuminate, 0, setup->extrapolate, &wavelength_nm, 1, power, error);
 }
 
+static enum spec_status
+refuse_outside(const struct spec_image *input, double wavelength_nm, const char *name,
+	struct spec_error *error)
+{
+	return spec_error_set(error, SPEC_ERANGE,
+		"%s: %g nm is outside its bands, %g..%g nm (--extrapolate zero|constant)",
+		name, wavelength_nm, input->wavelength_nm[0],
+		input->wavelength_nm[input->bands - 1]);
+}
+
 /* One band of the output: the input's band, or the two that it lies between. */
 static enum spec_status
 add_band_terms(struct spec_convert *convert, const struct spec_convert_setup *setup,
@@ -250,28 +260,24 @@ add_band_terms(struct spec_convert *convert, const struct spec_convert_setup *se
 	const struct spec_image *input = convert->input;
 	const double *known = input->wavelength_nm;
 	const size_t *channel = input->band_channel + (size_t)stokes * input->bands;
-	size_t last = input->bands - 1, i = 0;
+	int same, outside = wavelength_nm < known[0] ||
+			    wavelength_nm > known[input->bands - 1];
+	size_t i = spec_image_nearest_band(input, wavelength_nm, &same);
 	double power, part;
 	enum spec_status status;
 
-	if (wavelength_nm < known[0] - SAME_NM || wavelength_nm > known[last] + SAME_NM) {
-		if (setup->extrapolate == SPEC_EXTRAPOLATE_REFUSE)
-			return spec_error_set(error, SPEC_ERANGE,
-				"%s: %g nm is outside its bands, %g..%g nm (--extrapolate "
-				"zero|constant)",
-				name, wavelength_nm, known[0], known[last]);
-		if (setup->extrapolate == SPEC_EXTRAPOLATE_ZERO)
-			return SPEC_OK; /* no term: zero times a NaN would be one */
-	}
-	while (i < last && known[i + 1] <= wavelength_nm + SAME_NM)
-		i++;
+	if (!same && outside && setup->extrapolate == SPEC_EXTRAPOLATE_REFUSE)
+		return refuse_outside(input, wavelength_nm, name, error);
+	if (!same && outside && setup->extrapolate == SPEC_EXTRAPOLATE_ZERO)
+		return SPEC_OK; /* no term: zero times a NaN would be one */
 	status = power_at(setup, wavelength_nm, &power, error);
 	if (status != SPEC_OK)
 		return status;
 	factor *= power;
-	part = i < last ? (wavelength_nm - known[i]) / (known[i + 1] - known[i]) : 0;
-	if (part * (known[i < last ? i + 1 : i] - known[i]) <= SAME_NM)
+	if (same || outside)
 		return add_term(convert, channel[i], factor, error);
+	i -= known[i] > wavelength_nm;
+	part = (wavelength_nm - known[i]) / (known[i + 1] - known[i]);
 	status = add_term(convert, channel[i], factor * (1 - part), error);
 	return status == SPEC_OK ? add_term(convert, channel[i + 1], factor * part, error)
 				 : status;
@@ -288,9 +294,12 @@ add_reradiated_terms(struct spec_convert *convert, const struct spec_convert_set
 	for (size_t i = 0; i < input->channels && status == SPEC_OK; i++) {
 		const struct spec_channel *channel = &input->channel[i];
 		double power;
+		int same;
 
-		if (channel->role != SPEC_ROLE_BISPECTRAL ||
-			fabs(channel->reradiated_nm - wavelength_nm) > SAME_NM)
+		if (channel->role != SPEC_ROLE_BISPECTRAL)
+			continue;
+		if (input->wavelength_nm[spec_image_nearest_band(
+			    input, channel->reradiated_nm, &same)] != wavelength_nm)
 			continue;
 		status = power_at(setup, channel->wavelength_nm, &power, error);
 		if (status == SPEC_OK)
@@ -299,22 +308,21 @@ add_reradiated_terms(struct spec_convert *convert, const struct spec_convert_set
 	return status;
 }
 
+/* The input's channel that a channel of the output was, by its name or by its bands. */
 static size_t
-find_channel(const struct spec_image *image, const struct spec_channel *like)
+find_origin(const struct spec_image *input, const struct spec_channel *channel)
 {
-	for (size_t i = 0; i < image->channels; i++) {
-		const struct spec_channel *channel = &image->channel[i];
+	size_t found = spec_image_find_channel(input, channel->name);
 
-		if (like->role == SPEC_ROLE_BISPECTRAL
-				? channel->role == like->role &&
-					  fabs(channel->wavelength_nm -
-						  like->wavelength_nm) < 1e-6 &&
-					  fabs(channel->reradiated_nm -
-						  like->reradiated_nm) < 1e-6
-				: strcmp(channel->name, like->name) == 0)
-			return i;
+	for (size_t i = 0; found == input->channels && i < input->channels; i++) {
+		const struct spec_channel *other = &input->channel[i];
+
+		if (other->role == channel->role &&
+			fabs(other->wavelength_nm - channel->wavelength_nm) < 1e-6 &&
+			fabs(other->reradiated_nm - channel->reradiated_nm) < 1e-6)
+			found = i;
 	}
-	return 0; /* every channel of the output that is no band was the input's */
+	return found;
 }
 
 static enum spec_status
@@ -325,7 +333,7 @@ add_channel_terms(struct spec_convert *convert, const struct spec_convert_setup 
 	double factor = 1;
 
 	if (channel->role == SPEC_ROLE_OTHER)
-		return add_term(convert, find_channel(convert->input, channel), 1, error);
+		return add_term(convert, find_origin(convert->input, channel), 1, error);
 	status = factor_at(setup,
 		channel->role == SPEC_ROLE_BISPECTRAL ? channel->reradiated_nm
 						      : channel->wavelength_nm,
@@ -334,7 +342,7 @@ add_channel_terms(struct spec_convert *convert, const struct spec_convert_setup 
 		return status;
 	if (channel->role == SPEC_ROLE_BISPECTRAL)
 		return add_term(
-			convert, find_channel(convert->input, channel), factor, error);
+			convert, find_origin(convert->input, channel), factor, error);
 	status = add_band_terms(convert, setup, channel->wavelength_nm, channel->stokes,
 		factor, name, error);
 	if (status == SPEC_OK && setup->illuminate)
@@ -486,49 +494,66 @@ sum_row(const struct spec_convert *convert, const struct spec_stream_worker *wor
 	}
 }
 
-/* The value that most of the n x n pixels have; the first of them where several lead. */
-static uint32_t
-most_frequent(const struct spec_convert *convert, const struct spec_stream_worker *worker,
-	size_t channel, int y, size_t x)
+struct sample {
+	uint32_t value, place;
+};
+
+static int
+compare_samples(const void *a, const void *b)
 {
-	size_t n = convert->downsample;
-	uint32_t best = 0;
-	size_t best_count = 0;
+	const struct sample *one = a, *two = b;
 
-	for (size_t i = 0; i < n * n; i++) {
-		uint32_t candidate, other;
-		size_t count = 0;
-
-		memcpy(&candidate,
-			spec_decoder_row(worker->decoder[0], y + (int)(i / n), channel) +
-				convert->x0 + x * n + i % n,
-			sizeof candidate);
-		for (size_t j = 0; j < n * n; j++) {
-			memcpy(&other,
-				spec_decoder_row(
-					worker->decoder[0], y + (int)(j / n), channel) +
-					convert->x0 + x * n + j % n,
-				sizeof other);
-			count += other == candidate;
-		}
-		if (count > best_count) {
-			best = candidate;
-			best_count = count;
-		}
-	}
-	return best;
+	if (one->value != two->value)
+		return one->value < two->value ? -1 : 1;
+	return one->place < two->place ? -1 : 1;
 }
 
-/* Whole numbers that are no bands. */
+/* The value that most samples have; of several that lead, the one that came first. */
+static uint32_t
+most_frequent(struct sample *sample, size_t count)
+{
+	size_t best = 0, best_count = 0;
+
+	qsort(sample, count, sizeof *sample, compare_samples);
+	for (size_t i = 0, run; i < count; i += run) {
+		for (run = 1; i + run < count && sample[i + run].value == sample[i].value;
+			run++)
+			continue;
+		if (run > best_count ||
+			(run == best_count && sample[i].place < sample[best].place)) {
+			best = i;
+			best_count = run;
+		}
+	}
+	return sample[best].value;
+}
+
+/* Whole numbers that are no bands: of n x n pixels the most frequent. */
 static void
 reduce_numbers(const struct spec_convert *convert, const struct spec_stream_worker *worker,
 	size_t source, int y, float *to)
 {
-	size_t width = spec_window_width(&convert->image.data);
+	size_t width = spec_window_width(&convert->image.data), n = convert->downsample;
+	struct sample *sample = worker->scratch;
 
 	for (size_t x = 0; x < width; x++) {
-		uint32_t value = most_frequent(convert, worker, source, y, x);
+		uint32_t value;
+		int equal = 1;
 
+		for (size_t line = 0; line < n; line++) {
+			const float *from = spec_decoder_row(worker->decoder[0],
+						    y + (int)line, source) +
+					    convert->x0 + x * n;
+
+			for (size_t i = 0; i < n; i++) {
+				struct sample *next = &sample[line * n + i];
+
+				memcpy(&next->value, from + i, sizeof next->value);
+				next->place = (uint32_t)(line * n + i);
+				equal &= next->value == sample[0].value;
+			}
+		}
+		value = equal ? sample[0].value : most_frequent(sample, n * n);
 		memcpy(to + x, &value, sizeof value);
 	}
 }
@@ -595,7 +620,11 @@ spec_convert_run(struct spec_convert *convert, struct spec_reader *reader,
 		.state = convert,
 		.kernel = kernel,
 	};
-	enum spec_status status = spec_stream_run(&stream, settings, error);
+	enum spec_status status;
 
+	if (convert->downsample > 1)
+		stream.scratch_bytes = (size_t)convert->downsample *
+				       (size_t)convert->downsample * sizeof(struct sample);
+	status = spec_stream_run(&stream, settings, error);
 	return status == SPEC_OK ? spec_writer_finish(writer, error) : status;
 }

@@ -111,6 +111,17 @@ enum spec_status spec_image_add_bands(struct spec_image *image, enum spec_role r
 enum spec_status spec_image_index(
 	struct spec_image *image, const char *name, struct spec_error *error);
 
+/*
+ * The band nearest to a wavelength, of an indexed image with bands; *same: it is that
+ * band, which it is within 0.001 nm (names of three and of six decimals agree) but no
+ * farther than a quarter of the way to the next band.
+ */
+size_t spec_image_nearest_band(
+	const struct spec_image *image, double wavelength_nm, int *same);
+
+/* The index of the channel of that name in an indexed image, or image->channels. */
+size_t spec_image_find_channel(const struct spec_image *image, const char *name);
+
 /* Renames the bands to the layout's names, six decimals, and indexes again. */
 enum spec_status spec_image_rename_bands(
 	struct spec_image *image, const char *name, struct spec_error *error);

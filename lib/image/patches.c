@@ -245,6 +245,8 @@ spec_patches_curve(
 		}
 	}
 	spec_decoder_close(decoder);
+	if (status == SPEC_OK)
+		status = spec_reader_drain(reader, error);
 	if (status != SPEC_OK)
 		spec_curve_free(curve);
 	return status;
