@@ -1,5 +1,5 @@
 /* spec2rgb - what an eye sees of a spectral image, as a picture; see spec2rgb(1). */
-#include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "base/number.h"
@@ -18,6 +18,8 @@ static const struct cli_option options[] = {
 	{0, "adapt", "none|bradford|cat16",
 		"adapt reflectance to the white of sRGB\n(default: none)"},
 	{'e', "exposure", "EV", "multiply by 2^EV (default: 0)"},
+	{'f', "format", "SUFFIX",
+		"of the output, such as ppm (default: the suffix of -o, else png)"},
 	{0, "bits", "8|16|32", "bits per sample (default: as the format has them)"},
 	{0},
 };
@@ -32,7 +34,7 @@ static const struct cli_program program = {
 };
 
 struct job {
-	const char *input, *observer, *illuminant, *adapt;
+	const char *input, *observer, *illuminant, *adapt, *format;
 	double exposure;
 	int bits;
 	struct spec_settings settings;
@@ -54,6 +56,8 @@ take_option(struct job *job, const char *name, const char *value, struct spec_er
 	} else if (strcmp(name, "exposure") == 0) {
 		status = spec_number_parse(
 			value, -100, 100, "the exposure", &job->exposure, error);
+	} else if (strcmp(name, "format") == 0) {
+		job->format = value;
 	} else if (strcmp(name, "bits") == 0) {
 		status = spec_number_parse_whole(
 			value, 8, 32, "the number of bits", &bits, error);
@@ -95,7 +99,7 @@ plan(const struct job *job, const struct spec_reader *reader, struct spec_rgb *r
 	enum spec_status status = spec_lookup_curve(job->observer, &observer, error);
 
 	if (status == SPEC_OK)
-		status = spec_lookup_curve(job->illuminant, &illuminant, error);
+		status = spec_lookup_light(job->illuminant, &illuminant, error);
 	if (status == SPEC_OK)
 		status = spec_adaptation_find(job->adapt, &setup.adaptation, error);
 	if (status == SPEC_OK) {
@@ -132,9 +136,13 @@ develop(struct job *job, struct spec_reader *reader, const struct spec_rgb *rgb,
 	struct spec_picture_kind kind;
 	struct spec_picture *picture = NULL;
 	struct spec_output output;
-	enum spec_status status =
-		spec_picture_choose(job->settings.output, job->bits, &kind, error);
+	char wanted[32];
+	enum spec_status status;
 
+	/* A format is chosen by a suffix; --format is one without a name before it. */
+	snprintf(wanted, sizeof wanted, "picture.%s", job->format ? job->format : "");
+	status = spec_picture_choose(
+		job->format ? wanted : job->settings.output, job->bits, &kind, error);
 	if (status == SPEC_OK)
 		status = spec_output_open(&output, job->settings.output, error);
 	if (status != SPEC_OK)

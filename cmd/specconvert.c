@@ -59,6 +59,7 @@ struct job {
 	struct spec_convert_setup setup;
 	struct spec_patches_setup patches;
 	int text; /* the output is: 1 text, 0 an image, -1 as the input */
+	unsigned long long overflows; /* samples that --half made infinite */
 	struct spec_settings settings;
 };
 
@@ -165,7 +166,7 @@ take_multiply(struct job *job, const char *text, struct spec_error *error)
 
 	job->multiply = list;
 	if (status == SPEC_OK)
-		status = spec_lookup_curve(
+		status = spec_lookup_factor(
 			text, &job->multiply[job->setup.multiplies], error);
 	if (status == SPEC_OK)
 		job->setup.multiplies++;
@@ -216,7 +217,7 @@ take_option(struct job *job, const char *name, const char *value, struct spec_er
 			value, -1e30, 1e30, "the scale", &job->setup.scale, error);
 	if (strcmp(name, "illuminate") == 0) {
 		spec_curve_free(&job->illuminate);
-		return spec_lookup_curve(value, &job->illuminate, error);
+		return spec_lookup_light(value, &job->illuminate, error);
 	}
 	if (strcmp(name, "extrapolate") == 0)
 		return take_extrapolate(job, value, error);
@@ -359,6 +360,9 @@ load_curve(const struct job *job, const char *name, struct spec_curve *curve,
 	}
 	for (size_t i = 0; i < curve->count * curve->columns && status == SPEC_OK; i++)
 		curve->value[i] *= job->setup.scale;
+	if (status == SPEC_OK && job->setup.scale != 1)
+		status = spec_curve_set_text(
+			&curve->unit, "", error); /* it was of other numbers */
 	return status;
 }
 
@@ -375,7 +379,7 @@ write_chart(const struct job *job, const struct spec_curve *curve, int argc, cha
 
 	patches.grid = job->setup.grid ? job->setup.grid : &own;
 	if (patches.columns == 0) {
-		patches.columns = (int)job->inputs;
+		patches.columns = (int)spec_patches_count(curve, job->inputs);
 		patches.rows = 1;
 	}
 	status = spec_patches_image(&image, curve, job->inputs, &patches, error);
@@ -403,6 +407,10 @@ check_curve_options(const struct job *job, struct spec_error *error)
 		return spec_error_set(error, SPEC_EUSAGE,
 			"--crop, --downsample, --band and --illuminate are for images, not "
 			"for curves");
+	if (job->text && (job->patches.columns > 0 || job->patches.patch > 1 ||
+				 job->patches.gap > 0))
+		return spec_error_set(error, SPEC_EUSAGE,
+			"--patches, --patch and --gap make an image, and the output is text (-o FILE.exr)");
 	if (job->text && job->inputs > 1)
 		return spec_error_set(error, SPEC_EUSAGE,
 			"one curve at a time, or an image of them (--patches, or -o "
@@ -449,6 +457,8 @@ write_image(struct job *job, struct spec_reader *reader, struct spec_convert *co
 		&writer, &convert->image, &output, job->settings.compression, error);
 	if (status == SPEC_OK)
 		status = spec_convert_run(convert, reader, writer, &job->settings, error);
+	if (status == SPEC_OK)
+		job->overflows = spec_writer_overflows(writer);
 	spec_writer_close(writer);
 	if (status == SPEC_OK)
 		return spec_output_commit(&output, error);
@@ -546,6 +556,10 @@ main(int argc, char **argv)
 					: convert_image(&job, argc, argv, &error);
 	cli_progress_end(&progress);
 	cli_check(&cli, status, &error);
+	if (job.overflows > 0 && !job.settings.quiet)
+		cli_warn(&cli,
+			"%s: %llu samples are too large for 16 bits and became infinite",
+			job.settings.output, job.overflows);
 	free_job(&job);
 	return 0;
 }

@@ -327,7 +327,7 @@ compare(struct job *job, struct spec_reader *reader[2], struct spec_images *resu
 	if (named || !job->any_chosen) {
 		status = spec_lookup_curve(job->observer, &observer, error);
 		if (status == SPEC_OK)
-			status = spec_lookup_curve(job->illuminant, &illuminant, error);
+			status = spec_lookup_light(job->illuminant, &illuminant, error);
 		setup.observer = &observer;
 		setup.illuminant = &illuminant;
 	}

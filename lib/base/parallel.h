@@ -11,8 +11,8 @@ int spec_parallel_processors(void);
 
 /*
  * Runs work(argument, worker) for worker = 0..threads-1, each on a thread of its
- * own (worker 0 on the caller's), and returns when all have. Errors: a thread
- * cannot be started (those that started still run to their end).
+ * own (worker 0 on the caller's), and returns when all have. Where the system gives
+ * no more threads, those that there are do the work. Error: SPEC_ENOMEM.
  */
 enum spec_status spec_parallel_run(int threads, void (*work)(void *argument, int worker),
 	void *argument, struct spec_error *error);

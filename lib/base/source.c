@@ -149,11 +149,6 @@ extend_head(struct spec_source *source, size_t wanted, struct spec_error *error)
 
 	if (wanted <= source->head_size)
 		return SPEC_OK;
-	if (wanted > source->head_limit)
-		return spec_error_set(error, SPEC_ERANGE,
-			"%s: the header is longer than the limit of %zu bytes (--limit "
-			"header=BYTES)",
-			source->name, source->head_limit);
 	status = spec_memory_grow(
 		&head, &source->head_room, wanted, 1, "bytes of the header", error);
 	if (status != SPEC_OK)
@@ -202,6 +197,9 @@ read_stream(struct spec_source *source, void *data, size_t size, int64_t offset,
 	if (status != SPEC_OK || *got == size || !source->sealed)
 		return status;
 	offset += *got;
+	free(source->head); /* a stream only goes on from here */
+	source->head = NULL;
+	source->head_size = source->head_room = 0;
 	if (offset < source->position)
 		return spec_error_set(error, SPEC_EFORMAT,
 			"%s: its parts are not in the order of the lines", source->name);
@@ -222,11 +220,13 @@ spec_source_read(struct spec_source *source, void *data, size_t size, int64_t of
 	if (offset < 0 || offset > INT64_MAX / 2 || size > INT64_MAX / 2)
 		return spec_error_set(error, SPEC_EFORMAT,
 			"%s: an offset lies outside the file", source->name);
-	if (!source->sealed && (size_t)offset + size > source->head_limit)
+	if (!source->sealed && (size_t)offset >= source->head_limit)
 		return spec_error_set(error, SPEC_ERANGE,
-			"%s: the header is longer than the limit of %zu bytes (--limit "
-			"header=BYTES)",
+			"%s: the header is longer than the limit of %zu bytes (--limit header=BYTES)",
 			source->name, source->head_limit);
+	/* Readers look ahead: what lies beyond the limit is refused when it is needed. */
+	if (!source->sealed && size > source->head_limit - (size_t)offset)
+		size = source->head_limit - (size_t)offset;
 	return source->seekable
 		       ? read_fully(source, data, size, source->base + offset, got, error)
 		       : read_stream(source, data, size, offset, got, error);

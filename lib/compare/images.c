@@ -65,13 +65,17 @@ compare_windows(struct spec_images *result, const char *what, const struct spec_
 
 static enum spec_status
 compare_quantities(struct spec_images *result, const struct spec_image *a,
-	const struct spec_image *b, struct spec_error *error)
+	const struct spec_image *b, int *same_scale, struct spec_error *error)
 {
 	char *one = spec_image_quantity(a, error), *two = spec_image_quantity(b, error);
 	enum spec_status status = one && two ? SPEC_OK : SPEC_ENOMEM;
 
 	if (status == SPEC_OK && (a->role != b->role || strcmp(one, two) != 0))
-		say(result, "quantities differ: '%s' and '%s'\n", one, two);
+		say(result, "quantities differ: '%s' and '%s'\n", *one ? one : "no bands",
+			*two ? two : "no bands");
+	/* Values of bands and densities are not on one scale. */
+	*same_scale =
+		status == SPEC_OK && !strstr(one, "per band") == !strstr(two, "per band");
 	free(one);
 	free(two);
 	return status;
@@ -93,8 +97,11 @@ compare_bands(
 	size_t i = 0;
 	int paired = 0;
 
-	if (a->role != b->role)
+	if (a->role != b->role) {
+		say(result, "bands differ: %zu and %zu, of different kinds\n", a->bands,
+			b->bands);
 		return 0;
+	}
 	if (a->stokes != b->stokes)
 		say(result, "Stokes components differ: %d and %d\n", a->stokes, b->stokes);
 	while (i < a->bands && i < b->bands && same_band(a, b, i))
@@ -111,15 +118,16 @@ compare_bands(
 			a->bands, b->bands, b->wavelength_nm[i]);
 	else
 		paired = a->stokes == b->stokes;
-	if (paired && (a->edges_nm != NULL) != (b->edges_nm != NULL))
+	if (paired && (a->edges_nm != NULL) != (b->edges_nm != NULL)) {
 		say(result, "bands differ: one has bins, the other has point samples\n");
-	for (i = 0; a->edges_nm && b->edges_nm && a->bands == b->bands && i <= a->bands;
-		i++) {
-		if (fabs(a->edges_nm[i] - b->edges_nm[i]) > SAME_NM) {
-			say(result, "bins differ: an edge at %g nm and at %g nm\n",
-				a->edges_nm[i], b->edges_nm[i]);
-			break;
-		}
+		return 0;
+	}
+	for (i = 0; paired && a->edges_nm && i <= a->bands; i++) {
+		if (fabs(a->edges_nm[i] - b->edges_nm[i]) <= SAME_NM)
+			continue;
+		say(result, "bins differ: an edge at %g nm and at %g nm\n", a->edges_nm[i],
+			b->edges_nm[i]);
+		return 0;
 	}
 	return paired;
 }
@@ -199,15 +207,16 @@ compare_structure(struct comparison *comparison, struct spec_error *error)
 {
 	struct spec_images *result = comparison->result;
 	const struct spec_image *a = comparison->a, *b = comparison->b;
-	int same_window = memcmp(&a->data, &b->data, sizeof a->data) == 0;
+	int same_window = memcmp(&a->data, &b->data, sizeof a->data) == 0, same_scale;
 	enum spec_status status;
 
 	compare_windows(result, "data", &a->data, &b->data);
 	compare_windows(result, "display", &a->display, &b->display);
 	result->comparable = compare_bands(result, a, b) && same_window;
-	status = compare_quantities(result, a, b, error);
+	status = compare_quantities(result, a, b, &same_scale, error);
 	if (status != SPEC_OK)
 		return status;
+	result->comparable &= same_scale;
 	status = pair_channels(result, a, b, 1, &comparison->others, error);
 	if (status == SPEC_OK && a->bands == 0 && b->bands == 0)
 		status = pair_channels(result, a, b, 0, &comparison->bands, error);

@@ -47,6 +47,27 @@ sort_channels(struct spec_image *image, const char *name, struct spec_error *err
 	return SPEC_OK;
 }
 
+/* Bands that two programs named are two grids, wherever they lie. */
+static enum spec_status
+check_namings(const struct spec_image *image, const char *name, struct spec_error *error)
+{
+	const struct spec_channel *first = NULL;
+
+	for (size_t i = 0; i < image->channels; i++) {
+		const struct spec_channel *channel = &image->channel[i];
+
+		if (channel->naming == SPEC_NAMING_NONE)
+			continue;
+		if (!first)
+			first = channel;
+		if (channel->naming != first->naming)
+			return spec_error_set(error, SPEC_EFORMAT,
+				"%s: '%s' and '%s' are named differently (two grids in one file)",
+				name, first->name, channel->name);
+	}
+	return SPEC_OK;
+}
+
 /* The channels of one Stokes component, or of T, by wavelength. */
 static enum spec_status
 gather(const struct spec_image *image, enum spec_role role, int stokes, struct band *band,
@@ -273,6 +294,7 @@ find_bands(struct spec_image *image, struct band *band, const char *name,
 
 	if (status != SPEC_OK || image->role == SPEC_ROLE_OTHER)
 		return status;
+	status = check_namings(image, name, error);
 	for (int stokes = 0; stokes < image->stokes && status == SPEC_OK; stokes++) {
 		status = gather(image, image->role, stokes, band, &count, name, error);
 		if (status == SPEC_OK)

@@ -123,6 +123,8 @@ decode_chunk(struct spec_decoder *decoder, const struct spec_fetched *chunk,
 	*bytes = room;
 	pipeline->packed_buffer = pipeline->unpacked_buffer = NULL;
 	pipeline->packed_alloc_size = pipeline->unpacked_alloc_size = 0;
+	if (result == EXR_ERR_OUT_OF_MEMORY || spec_exr_has_note())
+		return spec_exr_error(result, decoder->reader->source.name, error);
 	if (result != EXR_ERR_SUCCESS)
 		return spec_error_set(error, SPEC_EFORMAT,
 			"%s: the data of line %d are damaged", decoder->reader->source.name,

@@ -1,5 +1,7 @@
 #include "image/half.h"
 
+#include <float.h>
+#include <math.h>
 #include <stdint.h>
 #include <string.h>
 
@@ -93,4 +95,15 @@ spec_half_from_float(void *to, const float *from, size_t count)
 
 		memcpy(byte + 2 * i, &bits, sizeof bits);
 	}
+}
+
+size_t
+spec_half_overflows(const float *from, size_t count)
+{
+	const float least = 65520; /* half-way from the largest, 65504, to 65536 */
+	size_t overflows = 0;
+
+	for (size_t i = 0; i < count; i++)
+		overflows += fabsf(from[i]) >= least && fabsf(from[i]) <= FLT_MAX;
+	return overflows;
 }

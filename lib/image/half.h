@@ -10,4 +10,7 @@ void spec_half_to_float(float *to, const void *from, size_t count);
 /* Rounds to nearest even; beyond 65504 it becomes an infinity. */
 void spec_half_from_float(void *to, const float *from, size_t count);
 
+/* How many finite floats would become infinite so. */
+size_t spec_half_overflows(const float *from, size_t count);
+
 #endif

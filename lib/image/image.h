@@ -28,11 +28,20 @@ enum spec_role {
 	SPEC_ROLE_BISPECTRAL  /* T.in.out, off the diagonal */
 };
 
+enum spec_naming { /* of a band, by the program that wrote it */
+	SPEC_NAMING_NONE,
+	SPEC_NAMING_LAYOUT, /* and pbrt-v4, colour-science */
+	SPEC_NAMING_MITSUBA,
+	SPEC_NAMING_ISET3D,
+	SPEC_NAMING_KAIST
+};
+
 struct spec_channel {
 	char *name;
 	enum spec_sample sample;
 	int linear; /* OpenEXR's pLinear: a hint to B44 */
 	enum spec_role role;
+	enum spec_naming naming;
 	int stokes;             /* 0..3 */
 	double wavelength_nm;   /* incident, where the channel is bispectral */
 	double reradiated_nm;   /* bispectral only */

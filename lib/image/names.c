@@ -96,6 +96,7 @@ read_layout(struct spec_channel *channel, struct spec_error *error)
 		return spec_error_set(error, SPEC_EFORMAT,
 			"channel '%s' has no wavelength between %g and %g nm",
 			channel->name, SPEC_NAMES_SHORTEST_NM, SPEC_NAMES_LONGEST_NM);
+	channel->naming = SPEC_NAMING_LAYOUT;
 	channel->role = emissive                 ? SPEC_ROLE_EMISSIVE
 			: two && second != first ? SPEC_ROLE_BISPECTRAL
 						 : SPEC_ROLE_REFLECTIVE;
@@ -122,6 +123,7 @@ read_edges(struct spec_channel *channel)
 	if (length == 0 || strcmp(text + length, "nm") != 0 || !in_range(low) ||
 		!in_range(high) || high <= low)
 		return 0;
+	channel->naming = SPEC_NAMING_MITSUBA;
 	channel->role = SPEC_ROLE_EMISSIVE;
 	channel->low_nm = low;
 	channel->high_nm = high;
@@ -143,6 +145,7 @@ read_iset(struct spec_channel *channel)
 	number = (text[0] - '0') * 10 + text[1] - '0';
 	if (number < 1 || number > ISET_BANDS)
 		return 0;
+	channel->naming = SPEC_NAMING_ISET3D;
 	channel->role = SPEC_ROLE_EMISSIVE;
 	channel->wavelength_nm = ISET_FIRST_NM + ISET_STEP_NM * (number - 1);
 	return 1;
@@ -159,6 +162,7 @@ read_kaist(struct spec_channel *channel)
 	length = spec_number_scan(channel->name + 1, '.', &wavelength_nm);
 	if (strcmp(channel->name + 1 + length, "nm") != 0 || !in_range(wavelength_nm))
 		return 0;
+	channel->naming = SPEC_NAMING_KAIST;
 	channel->role = SPEC_ROLE_REFLECTIVE;
 	channel->wavelength_nm = wavelength_nm;
 	return 1;
@@ -170,6 +174,7 @@ spec_names_read(struct spec_channel *channel, struct spec_error *error)
 	enum spec_status status;
 
 	channel->role = SPEC_ROLE_OTHER;
+	channel->naming = SPEC_NAMING_NONE;
 	status = read_layout(channel, error);
 	if (status != SPEC_OK || channel->role != SPEC_ROLE_OTHER)
 		return status;

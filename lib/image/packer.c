@@ -49,6 +49,9 @@ spec_packer_close(struct spec_packer *packer)
 	}
 	if (packer->compressor)
 		libdeflate_free_compressor(packer->compressor);
+	pthread_mutex_lock(&packer->writer->lock);
+	packer->writer->overflows += packer->overflows;
+	pthread_mutex_unlock(&packer->writer->lock);
 	free(packer->plane);
 	free(packer->row);
 	free(packer);
@@ -231,12 +234,14 @@ store_line(struct spec_packer *packer, unsigned char *raw)
 	size_t width = spec_window_width(&writer->image->data);
 
 	for (size_t i = 0; i < writer->image->channels; i++) {
-		if (writer->image->channel[i].sample == SPEC_SAMPLE_HALF)
+		if (writer->image->channel[i].sample == SPEC_SAMPLE_HALF) {
 			spec_half_from_float(
 				raw + writer->offset[i], packer->plane[i], width);
-		else
+			packer->overflows += spec_half_overflows(packer->plane[i], width);
+		} else {
 			memcpy(raw + writer->offset[i], packer->plane[i],
 				width * sizeof(float));
+		}
 	}
 }
 

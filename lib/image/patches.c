@@ -8,21 +8,6 @@
 #include "base/memory.h"
 #include "image/writer.h"
 
-static int
-is_reflective(const struct spec_curve *curve)
-{
-	return strcmp(curve->quantity, "reflectance") == 0 ||
-	       strcmp(curve->quantity, "transmittance") == 0;
-}
-
-static int
-is_light(const struct spec_curve *curve)
-{
-	return curve->quantity[0] == '\0' ||
-	       strcmp(curve->quantity, "spectral power distribution") == 0 ||
-	       strncmp(curve->quantity, "radiance", strlen("radiance")) == 0;
-}
-
 static enum spec_status
 set_header(struct spec_image *image, const struct spec_curve *curve, enum spec_role role,
 	struct spec_error *error)
@@ -39,6 +24,16 @@ set_header(struct spec_image *image, const struct spec_curve *curve, enum spec_r
 	return status;
 }
 
+size_t
+spec_patches_count(const struct spec_curve *curve, size_t curves)
+{
+	size_t count = 0;
+
+	for (size_t i = 0; i < curves; i++)
+		count += curve[i].columns;
+	return count;
+}
+
 enum spec_status
 spec_patches_image(struct spec_image *image, const struct spec_curve *curve, size_t curves,
 	const struct spec_patches_setup *setup, struct spec_error *error)
@@ -48,23 +43,24 @@ spec_patches_image(struct spec_image *image, const struct spec_curve *curve, siz
 	long long height =
 		(long long)setup->rows * (setup->patch + setup->gap) + setup->gap;
 	enum spec_role role =
-		is_reflective(&curve[0]) ? SPEC_ROLE_REFLECTIVE : SPEC_ROLE_EMISSIVE;
+		spec_curve_is_ratio(&curve[0]) ? SPEC_ROLE_REFLECTIVE : SPEC_ROLE_EMISSIVE;
 	enum spec_status status;
 
 	*image = (struct spec_image){.pixel_aspect_ratio = 1, .screen_window_width = 1};
-	if (curves > (size_t)setup->columns * (size_t)setup->rows)
+	if (spec_patches_count(curve, curves) >
+		(size_t)setup->columns * (size_t)setup->rows)
 		return spec_error_set(error, SPEC_EUSAGE,
-			"%zu curves do not fit %d x %d patches", curves, setup->columns,
-			setup->rows);
+			"%zu curves do not fit %d x %d patches",
+			spec_patches_count(curve, curves), setup->columns, setup->rows);
 	if (width > 1 << 20 || height > 1 << 20)
 		return spec_error_set(error, SPEC_ERANGE,
 			"a chart of %lld x %lld pixels is too large", width, height);
 	for (size_t i = 0; i < curves; i++) {
-		if (!is_reflective(&curve[i]) && !is_light(&curve[i]))
+		if (!spec_curve_is_ratio(&curve[i]) && !spec_curve_is_light(&curve[i]))
 			return spec_error_set(error, SPEC_EUSAGE,
 				"'%s' is a %s: an image holds light, reflectance or transmittance",
 				curve[i].title, curve[i].quantity);
-		if (is_reflective(&curve[i]) != is_reflective(&curve[0]))
+		if (spec_curve_is_ratio(&curve[i]) != spec_curve_is_ratio(&curve[0]))
 			return spec_error_set(error, SPEC_EUSAGE,
 				"'%s' is %s but '%s' is %s", curve[0].title,
 				curve[0].quantity, curve[i].title, curve[i].quantity);
@@ -82,38 +78,42 @@ spec_patches_image(struct spec_image *image, const struct spec_curve *curve, siz
 	return status;
 }
 
-/* The curves' values: value[curve * bands + band]. */
+/* The curves' values: value[patch * bands + band], a patch for each column. */
 static enum spec_status
 sample(const struct spec_curve *curve, size_t curves,
 	const struct spec_patches_setup *setup, double **value, struct spec_error *error)
 {
-	size_t bands = setup->grid->count;
+	size_t bands = setup->grid->count, patch = 0;
 	enum spec_status status = SPEC_OK;
 
-	*value = spec_memory_new(curves * bands, sizeof **value, "values", error);
+	*value = spec_memory_new(
+		spec_patches_count(curve, curves) * bands, sizeof **value, "values", error);
 	if (!*value)
 		return SPEC_ENOMEM;
-	for (size_t i = 0; i < curves && status == SPEC_OK; i++)
-		status = spec_curve_sample(&curve[i], 0, setup->extrapolate,
-			setup->grid->wavelength_nm, bands, *value + i * bands, error);
+	for (size_t i = 0; i < curves; i++) {
+		for (size_t j = 0; j < curve[i].columns && status == SPEC_OK; j++, patch++)
+			status = spec_curve_sample(&curve[i], j, setup->extrapolate,
+				setup->grid->wavelength_nm, bands, *value + patch * bands,
+				error);
+	}
 	return status;
 }
 
-/* Which curve stands at a pixel, or curves where it is black. */
+/* Which patch stands at a pixel, or patches where it is black. */
 static size_t
-curve_at(const struct spec_patches_setup *setup, size_t curves, int x, int y)
+patch_at(const struct spec_patches_setup *setup, size_t patches, int x, int y)
 {
 	int step = setup->patch + setup->gap;
 	size_t index;
 
 	if (x % step < setup->gap || y % step < setup->gap)
-		return curves;
+		return patches;
 	index = (size_t)(y / step) * (size_t)setup->columns + (size_t)(x / step);
-	return index < curves ? index : curves;
+	return index < patches ? index : patches;
 }
 
 static enum spec_status
-write_lines(const struct spec_image *image, size_t curves,
+write_lines(const struct spec_image *image, size_t patches,
 	const struct spec_patches_setup *setup, const double *value,
 	struct spec_packer *packer, struct spec_error *error)
 {
@@ -127,9 +127,9 @@ write_lines(const struct spec_image *image, size_t curves,
 			float *row = plane[image->band_channel[i]];
 
 			for (size_t x = 0; x < width; x++) {
-				size_t index = curve_at(setup, curves, (int)x, y);
+				size_t index = patch_at(setup, patches, (int)x, y);
 
-				row[x] = index < curves
+				row[x] = index < patches
 						 ? (float)value[index * image->bands + i]
 						 : 0;
 			}
@@ -156,7 +156,8 @@ spec_patches_write(const struct spec_image *image, const struct spec_curve *curv
 	if (status == SPEC_OK)
 		status = spec_packer_open(&packer, writer, error);
 	if (status == SPEC_OK)
-		status = write_lines(image, curves, setup, value, packer, error);
+		status = write_lines(image, spec_patches_count(curve, curves), setup, value,
+			packer, error);
 	if (status == SPEC_OK)
 		status = spec_writer_finish(writer, error);
 	spec_packer_close(packer);

@@ -31,7 +31,10 @@ enum spec_status spec_patches_image(struct spec_image *image,
 	const struct spec_curve *curve, size_t curves,
 	const struct spec_patches_setup *setup, struct spec_error *error);
 
-/* Writes the chart: the first column of each curve at the grid's wavelengths, by rows. */
+/* How many patches the curves make: one for each column. */
+size_t spec_patches_count(const struct spec_curve *curve, size_t curves);
+
+/* Writes the chart: each column of each curve at the grid's wavelengths, by rows. */
 enum spec_status spec_patches_write(const struct spec_image *image,
 	const struct spec_curve *curve, size_t curves,
 	const struct spec_patches_setup *setup, struct spec_output *output,

@@ -87,6 +87,10 @@ start(struct spec_reader *reader, struct spec_error *error)
 	if (result == EXR_ERR_SUCCESS)
 		return SPEC_OK;
 	spec_exr_error(result, "the header is damaged or cut short", error);
+	if (error && strstr(error->message, "data window"))
+		return spec_error_set(error, SPEC_ERANGE,
+			"%s: the data window is empty or reaches beyond 2^30",
+			reader->source.name);
 	return spec_error_prefix(error, "%s", reader->source.name);
 }
 
@@ -346,8 +350,7 @@ open_reader(struct spec_reader *reader, const char *path,
 	if (status == SPEC_OK)
 		status = check_magic(reader, error);
 	if (status == SPEC_OK)
-		status = spec_scan_channels(
-			&reader->source, settings->limits.channels, error);
+		status = spec_scan_header(&reader->source, &settings->limits, error);
 	if (status == SPEC_OK)
 		status = start(reader, error);
 	if (status == SPEC_OK && exr_get_count(reader->context, &parts) != EXR_ERR_SUCCESS)

@@ -2,8 +2,10 @@
 
 #include <string.h>
 
-#define FIRST_ATTRIBUTE 8 /* after magic number and version */
-#define ENTRY_BYTES 16    /* of a channel, after its name: type, linear, sampling */
+#define VERSION_BYTE 5     /* the second of the version word: its flags */
+#define SEVERAL_PARTS 0x10 /* among those */
+#define FIRST_ATTRIBUTE 8  /* after magic number and version */
+#define ENTRY_BYTES 16     /* of a channel, after its name: type, linear, sampling */
 #define LONGEST_NAME 255
 
 struct scan {
@@ -64,7 +66,7 @@ count_entries(struct scan *scan)
 
 /* One attribute; 0 at the end of the part's header or where it cannot be read. */
 static int
-take_attribute(struct scan *scan, long long limit)
+take_attribute(struct scan *scan, const struct spec_limits *limits)
 {
 	char name[LONGEST_NAME + 1], type[LONGEST_NAME + 1];
 	long long size = 0, count;
@@ -83,27 +85,46 @@ take_attribute(struct scan *scan, long long limit)
 	if (size > INT32_MAX)
 		return 0;
 	count = strcmp(name, "channels") == 0 ? count_entries(scan) : 0;
-	if (count > limit) {
+	if (count > limits->channels) {
 		scan->status = spec_error_set(scan->error, SPEC_ERANGE,
 			"%s: %lld channels are more than the limit of %lld (--limit channels=N)",
-			scan->source->name, count, limit);
+			scan->source->name, count, limits->channels);
 		return 0;
 	}
 	scan->offset = end;
 	return scan->status == SPEC_OK;
 }
 
-enum spec_status
-spec_scan_channels(struct spec_source *source, long long limit, struct spec_error *error)
+/* The attributes of one part. */
+static void
+take_part(struct scan *scan, const struct spec_limits *limits)
 {
-	struct scan scan = {.source = source, .offset = FIRST_ATTRIBUTE, .error = error};
+	long long count = 0;
+
+	while (take_attribute(scan, limits)) {
+		if (++count <= limits->attributes)
+			continue;
+		scan->status = spec_error_set(scan->error, SPEC_ERANGE,
+			"%s: more attributes than the limit of %lld (--limit attributes=N)",
+			scan->source->name, limits->attributes);
+		return;
+	}
+}
+
+enum spec_status
+spec_scan_header(struct spec_source *source, const struct spec_limits *limits,
+	struct spec_error *error)
+{
+	struct scan scan = {.source = source, .offset = VERSION_BYTE, .error = error};
+	int flags = next(&scan);
 	int64_t before;
 
+	scan.offset = FIRST_ATTRIBUTE;
 	/* Parts follow one another; an empty one ends them. */
 	do {
 		before = scan.offset;
-		while (take_attribute(&scan, limit))
-			continue;
-	} while (scan.status == SPEC_OK && scan.offset > before + 1);
+		take_part(&scan, limits);
+	} while (scan.status == SPEC_OK && flags >= 0 && (flags & SEVERAL_PARTS) != 0 &&
+		 scan.offset > before + 1);
 	return scan.status;
 }

@@ -12,6 +12,7 @@ spec_settings_init(struct spec_settings *settings)
 	*settings = (struct spec_settings){
 		.limits = {.pixels = 1LL << 30,
 			.channels = 32767,
+			.attributes = 16384,
 			.header = 64LL << 20,
 			.memory = 4LL << 30},
 		.output = "-",
@@ -28,7 +29,8 @@ take_limit(struct spec_limits *limits, const char *text, struct spec_error *erro
 		const char *name;
 		long long *value;
 	} known[] = {{"pixels", &limits->pixels}, {"channels", &limits->channels},
-		{"header", &limits->header}, {"memory", &limits->memory}};
+		{"attributes", &limits->attributes}, {"header", &limits->header},
+		{"memory", &limits->memory}};
 	size_t length = strcspn(text, "=");
 
 	for (size_t i = 0; text[length] && i < sizeof known / sizeof known[0]; i++) {
@@ -38,7 +40,8 @@ take_limit(struct spec_limits *limits, const char *text, struct spec_error *erro
 				text + length + 1, "the limit", known[i].value, error);
 	}
 	return spec_error_set(error, SPEC_EUSAGE,
-		"'%s' is not pixels=N, channels=N, header=BYTES or memory=BYTES", text);
+		"'%s' is not pixels=N, channels=N, attributes=N, header=BYTES or memory=BYTES",
+		text);
 }
 
 enum spec_status

@@ -6,10 +6,11 @@
 
 /* Refused before allocating; the message names the limit and the option that lifts it. */
 struct spec_limits {
-	long long pixels;   /* width times height */
-	long long channels; /* at most 32767, which OpenEXR cannot exceed */
-	long long header;   /* bytes */
-	long long memory;   /* bytes of pixel buffers at one time */
+	long long pixels;     /* width times height */
+	long long channels;   /* at most 32767, which OpenEXR cannot exceed */
+	long long attributes; /* of a part */
+	long long header;     /* bytes */
+	long long memory;     /* bytes of pixel buffers at one time */
 };
 
 struct spec_settings {

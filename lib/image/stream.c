@@ -8,6 +8,7 @@
 
 #define BLOCK_BYTES                                                                        \
 	(1 << 20)      /* small enough for the cache, large enough to be worth a turn */
+#define MOST_CHUNKS 4  /* in a block, to make whole lines of the output */
 #define BLOCK_COPIES 4 /* packed, unpacked, scratch, and the output's */
 
 struct run {
@@ -27,23 +28,38 @@ at_most(long long a, long long b)
 	return (int)(a < b ? a : b);
 }
 
+static long long
+common_multiple(long long a, long long b)
+{
+	long long x = a, y = b;
+
+	while (y != 0) {
+		long long rest = x % y;
+
+		x = y;
+		y = rest;
+	}
+	return a / x * b;
+}
+
 /*
- * How many lines of the output make a block: whole chunks of the input and of
- * the output, so that no chunk is decoded twice where they are aligned.
+ * How many lines of the output make a block: whole chunks of the input, so that no
+ * chunk is decoded twice, or, where lines_in goes badly into them, a few chunks, so
+ * that few are.
  */
 static int
 choose_block(const struct spec_stream *stream)
 {
-	long long lines = stream->lines_in;
+	long long chunk = 1, lines;
 	size_t bytes = 1;
 
 	for (int i = 0; i < stream->readers; i++) {
-		int chunk = spec_reader_chunk_lines(stream->reader[i]);
-
+		chunk = common_multiple(chunk, spec_reader_chunk_lines(stream->reader[i]));
 		bytes += spec_reader_line_bytes(stream->reader[i]);
-		if (lines < chunk)
-			lines = chunk;
 	}
+	lines = common_multiple(chunk, stream->lines_in);
+	if (lines > MOST_CHUNKS * chunk)
+		lines = chunk > stream->lines_in ? MOST_CHUNKS * chunk : stream->lines_in;
 	while (lines < (1 << 20) && (size_t)lines * 2 * bytes <= BLOCK_BYTES)
 		lines *= 2;
 	lines /= stream->lines_in;
@@ -152,23 +168,25 @@ work_block(struct run *run, struct spec_stream_worker *worker, unsigned char *pa
 	return status;
 }
 
+/* Takes and does blocks until none is left; *block: the last one taken, or -1. */
 static enum spec_status
-work_all(struct run *run, struct spec_stream_worker *worker, struct spec_error *error)
+work_all(struct run *run, struct spec_stream_worker *worker, int *block,
+	struct spec_error *error)
 {
 	size_t size = run->stream->payload_bytes * run->block_lines;
 	enum spec_status status = open_worker(run, worker, error);
 	unsigned char *payload = NULL;
-	int block = 0;
 
+	*block = -1;
 	if (status == SPEC_OK && size > 0) {
 		payload = spec_memory_aligned(size, 1, "bytes", error);
 		status = payload ? SPEC_OK : SPEC_ENOMEM;
 	}
 	while (status == SPEC_OK) {
-		status = take_block(run, worker, &block, error);
-		if (status != SPEC_OK || block < 0)
+		status = take_block(run, worker, block, error);
+		if (status != SPEC_OK || *block < 0)
 			break;
-		status = work_block(run, worker, payload, block, error);
+		status = work_block(run, worker, payload, *block, error);
 	}
 	free(payload);
 	return status;
@@ -180,11 +198,15 @@ work(void *argument, int number)
 	struct run *run = argument;
 	struct spec_stream_worker worker = {.number = number};
 	struct spec_error error = {0};
+	int block;
 
-	if (work_all(run, &worker, &error) != SPEC_OK) {
+	if (work_all(run, &worker, &block, &error) != SPEC_OK) {
 		pthread_mutex_lock(&run->take);
 		run->next_block = run->blocks;
 		pthread_mutex_unlock(&run->take);
+		/* Blocks before this one end first: the same error for any number of threads. */
+		if (block >= 0)
+			(void)spec_turnstile_enter(&run->turnstile, block);
 		spec_turnstile_stop(&run->turnstile, &error);
 		if (run->stream->writer)
 			spec_writer_stop(run->stream->writer, &error);

@@ -326,6 +326,12 @@ spec_writer_chunk_lines(const struct spec_writer *writer)
 	return writer->chunk_lines;
 }
 
+unsigned long long
+spec_writer_overflows(const struct spec_writer *writer)
+{
+	return writer->overflows;
+}
+
 void
 spec_writer_stop(struct spec_writer *writer, const struct spec_error *error)
 {

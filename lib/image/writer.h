@@ -32,6 +32,9 @@ void spec_writer_close(struct spec_writer *writer);
 /* Lines that are encoded together. */
 int spec_writer_chunk_lines(const struct spec_writer *writer);
 
+/* Finite samples that became infinite as HALF, once all packers are closed. */
+unsigned long long spec_writer_overflows(const struct spec_writer *writer);
+
 /* Stops workers that wait for their turn to write. */
 void spec_writer_stop(struct spec_writer *writer, const struct spec_error *error);
 

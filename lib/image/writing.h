@@ -33,6 +33,7 @@ struct spec_writer {
 	pthread_mutex_t lock; /* guards slot */
 	struct spec_slot *slot;
 	size_t slots, slot_room;
+	unsigned long long overflows; /* of the packers that are closed */
 	struct spec_turnstile turnstile;
 };
 
@@ -44,6 +45,7 @@ struct spec_packer {
 	const void *
 		chunk; /* encoded: in the pipeline or, where that is no smaller, the slot */
 	size_t chunk_bytes;
+	unsigned long long overflows; /* samples that HALF could not hold */
 	float **plane;
 	float *row; /* where planes do not lie in the chunk */
 };

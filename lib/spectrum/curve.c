@@ -199,3 +199,18 @@ spec_curve_free(struct spec_curve *curve)
 	free(curve->value);
 	*curve = (struct spec_curve){0};
 }
+
+int
+spec_curve_is_light(const struct spec_curve *curve)
+{
+	return curve->quantity[0] == '\0' ||
+	       strcmp(curve->quantity, "spectral power distribution") == 0 ||
+	       strncmp(curve->quantity, "radiance", strlen("radiance")) == 0;
+}
+
+int
+spec_curve_is_ratio(const struct spec_curve *curve)
+{
+	return strcmp(curve->quantity, "reflectance") == 0 ||
+	       strcmp(curve->quantity, "transmittance") == 0;
+}

@@ -60,6 +60,13 @@ enum spec_status spec_curve_sample(const struct spec_curve *curve, size_t column
 	enum spec_extrapolate extrapolate, const double *wavelength_nm, size_t count,
 	double *value, struct spec_error *error);
 
+/*
+ * What a curve may stand for, by its quantity. Light: a spectral power distribution, a
+ * radiance, or not stated. A ratio: reflectance or transmittance.
+ */
+int spec_curve_is_light(const struct spec_curve *curve);
+int spec_curve_is_ratio(const struct spec_curve *curve);
+
 /* Frees what curve holds and leaves it empty; null or empty is allowed. */
 void spec_curve_free(struct spec_curve *curve);
 

@@ -419,3 +419,34 @@ spec_lookup_free_list(char **names, size_t count)
 		free(names[i]);
 	free(names);
 }
+
+static enum spec_status
+refuse(const char *name, struct spec_curve *curve, const char *wanted,
+	struct spec_error *error)
+{
+	enum spec_status status = spec_error_set(
+		error, SPEC_EUSAGE, "'%s' is a %s, not %s", name, curve->quantity, wanted);
+
+	spec_curve_free(curve);
+	return status;
+}
+
+enum spec_status
+spec_lookup_light(const char *name, struct spec_curve *curve, struct spec_error *error)
+{
+	enum spec_status status = spec_lookup_curve(name, curve, error);
+
+	if (status != SPEC_OK || spec_curve_is_light(curve))
+		return status;
+	return refuse(name, curve, "light", error);
+}
+
+enum spec_status
+spec_lookup_factor(const char *name, struct spec_curve *curve, struct spec_error *error)
+{
+	enum spec_status status = spec_lookup_curve(name, curve, error);
+
+	if (status != SPEC_OK || spec_curve_is_light(curve) || spec_curve_is_ratio(curve))
+		return status;
+	return refuse(name, curve, "light, reflectance or transmittance", error);
+}

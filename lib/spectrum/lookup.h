@@ -27,6 +27,14 @@
 enum spec_status spec_lookup_curve(
 	const char *name, struct spec_curve *curve, struct spec_error *error);
 
+/* As spec_lookup_curve; SPEC_EUSAGE also where the curve is no light, such as an index. */
+enum spec_status spec_lookup_light(
+	const char *name, struct spec_curve *curve, struct spec_error *error);
+
+/* As spec_lookup_curve; SPEC_EUSAGE also where it is neither light nor a ratio. */
+enum spec_status spec_lookup_factor(
+	const char *name, struct spec_curve *curve, struct spec_error *error);
+
 /*
  * The full names of all spectra in all roots, sorted by byte, each once. To be freed with
  * spec_lookup_free_list. SPEC_EIO: a folder is there but cannot be read. SPEC_ENOMEM. On

@@ -1,6 +1,10 @@
 #include "spectrum/product.h"
 
+#include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
 
 static enum spec_status
 copy_texts(const struct spec_curve *from, struct spec_curve *to, struct spec_error *error)
@@ -77,6 +81,44 @@ merge(const struct spec_curve *a, const struct spec_curve *b, double *list)
 	return count;
 }
 
+/* Sets a text to one, between and two. */
+static enum spec_status
+join(char **field, const char *one, const char *between, const char *two,
+	struct spec_error *error)
+{
+	size_t size = strlen(one) + strlen(between) + strlen(two) + 1;
+	char *text = spec_memory_new(size, 1, "bytes of text", error);
+	enum spec_status status = text ? SPEC_OK : SPEC_ENOMEM;
+
+	if (text) {
+		snprintf(text, size, "%s%s%s", one, *one && *two ? between : "", two);
+		status = spec_curve_set_text(field, text, error);
+	}
+	free(text);
+	return status;
+}
+
+/* What the product of two curves is. */
+static enum spec_status
+name_product(const struct spec_curve *a, const struct spec_curve *b,
+	struct spec_curve *result, struct spec_error *error)
+{
+	const char *quantity = "";
+	enum spec_status status;
+
+	if (spec_curve_is_ratio(a))
+		quantity = spec_curve_is_ratio(b) ? a->quantity : b->quantity;
+	else if (spec_curve_is_ratio(b))
+		quantity = a->quantity;
+	status = spec_curve_set_text(&result->quantity, quantity, error);
+	if (status == SPEC_OK)
+		status = spec_curve_set_text(&result->unit, "", error);
+	if (status == SPEC_OK)
+		status = join(&result->title, a->title, " times ", b->title, error);
+	return status == SPEC_OK ? join(&result->source, a->source, "; ", b->source, error)
+				 : status;
+}
+
 enum spec_status
 spec_curve_multiply(const struct spec_curve *a, const struct spec_curve *b,
 	struct spec_curve *result, struct spec_error *error)
@@ -102,6 +144,8 @@ spec_curve_multiply(const struct spec_curve *a, const struct spec_curve *b,
 	if (status == SPEC_OK)
 		status = spec_curve_sample(b, 0, SPEC_EXTRAPOLATE_REFUSE,
 			result->wavelength_nm, count, factor, error);
+	if (status == SPEC_OK)
+		status = name_product(a, b, result, error);
 	for (size_t i = 0; i < count * a->columns && status == SPEC_OK; i++)
 		result->value[i] *= factor[i % count];
 	free(factor);
