@@ -139,13 +139,13 @@ is_whole(const struct spec_channel *channel)
 	return channel->sample == SPEC_SAMPLE_UINT && channel->role == SPEC_ROLE_OTHER;
 }
 
-/* Whole numbers are no bands, even where an image has no bands and its channels stand in. */
+/* Whole numbers are no bands, even where neither image has any and all channels stand in. */
 static int
-is_other(const struct spec_image *image, size_t channel)
+is_other(const struct spec_image *image, size_t channel, int spectral)
 {
 	const struct spec_channel *it = &image->channel[channel];
 
-	if (image->bands == 0)
+	if (!spectral)
 		return it->sample == SPEC_SAMPLE_UINT;
 	return it->role == SPEC_ROLE_OTHER || it->role == SPEC_ROLE_BISPECTRAL;
 }
@@ -156,6 +156,8 @@ pair_channels(struct spec_images *result, const struct spec_image *a,
 	const struct spec_image *b, int others, struct pairs *pairs,
 	struct spec_error *error)
 {
+	int spectral = a->bands > 0 || b->bands > 0;
+
 	pairs->a = spec_memory_new(a->channels, sizeof *pairs->a, "channels", error);
 	pairs->b = spec_memory_new(a->channels, sizeof *pairs->b, "channels", error);
 	if (!pairs->a || !pairs->b)
@@ -163,7 +165,7 @@ pair_channels(struct spec_images *result, const struct spec_image *a,
 	for (size_t i = 0; i < a->channels; i++) {
 		size_t partner = spec_image_find_channel(b, a->channel[i].name);
 
-		if (is_other(a, i) != others)
+		if (is_other(a, i, spectral) != others)
 			continue;
 		if (partner == b->channels) {
 			say(result, "channel '%s' is only in the first\n",
@@ -178,7 +180,7 @@ pair_channels(struct spec_images *result, const struct spec_image *a,
 		pairs->b[pairs->count++] = partner;
 	}
 	for (size_t i = 0; i < b->channels; i++) {
-		if (is_other(b, i) == others &&
+		if (is_other(b, i, spectral) == others &&
 			spec_image_find_channel(a, b->channel[i].name) == a->channels)
 			say(result, "channel '%s' is only in the second\n",
 				b->channel[i].name);

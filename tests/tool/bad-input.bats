@@ -593,3 +593,37 @@ refused_or_same() {
   done
   [ ! -e out.exr ]
 }
+
+@test "two namings are two grids, wherever their bands lie" {
+  spectral a.exr --channel S0.500nm --channel S0.600nm --channel 400.00-410.00nm
+  refused a.exr
+  [[ $stderr = *'two grids in one file'* ]] || complain "$stderr"
+}
+
+@test "more attributes than the limit" {
+  spectral a.exr --attribute one=1 --attribute two=2
+  fails_cleanly specconvert --limit attributes=3 a.exr -o out.exr
+  [[ $stderr = *'--limit attributes=N'* ]] || complain "$stderr"
+  specconvert --limit attributes=100 a.exr -o out.exr
+}
+
+@test "a header up to its limit is read, whatever is read ahead" {
+  spectral a.exr
+  specconvert --limit header=4k a.exr -o out.exr
+  specconvert --limit header=4k - -o out.exr < <(cat a.exr)
+  fails_cleanly specconvert --limit header=300 a.exr -o out.exr
+  [[ $stderr = *'--limit header=BYTES'* ]] || complain "$stderr"
+}
+
+@test "of several damaged places the first is told, for any number of threads" {
+  spectral a.exr --size 64x256 --pattern grain --compression zip
+  size=$(stat -c %s a.exr)
+  # From the middle on every byte is zero.
+  head -c $((size / 2)) a.exr >b.exr
+  head -c $((size - size / 2)) /dev/zero >>b.exr
+  specconvert -j1 b.exr -o out.exr 2>first || true
+  for ((i = 0; i < 10; i++)); do
+    specconvert -j4 b.exr -o out.exr 2>again || true
+    cmp first again || complain "$(cat first again)"
+  done
+}

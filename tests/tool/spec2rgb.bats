@@ -425,3 +425,19 @@ quiet() {
   fails_cleanly spec2rgb -x
   fails_cleanly spec2rgb --quiet=1
 }
+
+@test "--format without a suffix, on a pipe too" {
+  spectral a.exr
+  spec2rgb a.exr -o a.ppm
+  spec2rgb -f ppm a.exr | cmp - a.ppm
+  spec2rgb --format ppm a.exr -o /dev/stdout | cmp - a.ppm
+  fails_cleanly spec2rgb -f nothing a.exr -o b
+}
+
+@test "only light lights" {
+  spectral a.exr --kind T
+  for name in Au cie1931 15-red; do
+    fails_cleanly spec2rgb --illuminant "$name" a.exr -o a.png
+  done
+  no_leftovers . a.exr
+}

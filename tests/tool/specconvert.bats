@@ -773,3 +773,70 @@ specconvert --crop 0,0,1,1 b.exr -o c.exr  # spectools $version
   fails_cleanly specconvert --grd 400:700:10
   [[ $stderr = *"did you mean '--grid'?" ]] || complain "$stderr"
 }
+
+@test "bands a thousandth of a nm apart stay what they are" {
+  spectral a.exr --size 2x1 --channel S0.589,0000nm --channel S0.589,0010nm \
+    --channel S0.589,0014nm --channel S0.589,0020nm
+  specconvert a.exr -o b.exr
+  specdiff a.exr b.exr
+  specconvert --band 589.001 a.exr | specconvert -f spd | grep '^589' >found
+  [ "$(cat found)" = '589.001 0.101 0.102' ] || complain "$(cat found)"
+}
+
+@test "bins stay where neighbouring bands stay" {
+  spectral a.exr --grid 400:700:100 --bins
+  specconvert --grid 400:700:100 a.exr -o b.exr
+  specdiff a.exr b.exr
+  specconvert --band 500 --band 600 a.exr -o c.exr
+  exrheader c.exr | grep -q '^spec:bins (type string): "450 550 650"$'
+  specconvert --band 400 --band 600 a.exr -o d.exr
+  [ "$(exrheader d.exr | grep -c '^spec:bins')" -eq 0 ]
+}
+
+@test "samples too large for 16 bits are told" {
+  spectral a.exr --pattern constant:70000 --size 2x2 --grid 400:500:100
+  specconvert --half a.exr -o b.exr 2>said
+  [ "$(cat said)" = 'specconvert: warning: b.exr: 8 samples are too large for 16 bits and became infinite' ] ||
+    complain "$(cat said)"
+  specconvert -q --half a.exr -o b.exr 2>said
+  [ ! -s said ]
+}
+
+@test "a product says what it is" {
+  specconvert 15-red --multiply D65 >product.spd
+  grep -qx '# quantity: spectral power distribution' product.spd
+  grep -qx '# title: ColorChecker patch 15 red times CIE standard illuminant D65' product.spd
+  [ "$(grep -c '^# unit' product.spd)" -eq 0 ]
+  specconvert D65 --multiply 15-red | grep -qx '# quantity: spectral power distribution'
+  specconvert 15-red --multiply 16-yellow | grep -qx '# quantity: reflectance'
+  specconvert D65 --scale 2 >scaled.spd
+  [ "$(grep -c '^# unit' scaled.spd)" -eq 0 ]
+}
+
+@test "an index is neither light nor a factor" {
+  spectral a.exr --kind T
+  fails_cleanly specconvert --illuminate Au a.exr -o b.exr
+  [[ $stderr = *"'Au' is a refractive index, not light" ]] || complain "$stderr"
+  fails_cleanly specconvert --multiply N-BK7 a.exr -o b.exr
+  [[ $stderr = *'refractive index'* ]] || complain "$stderr"
+  fails_cleanly specconvert --illuminate 15-red a.exr -o b.exr
+}
+
+@test "every column of a curve is a patch, and comes back as a column" {
+  printf '# quantity: reflectance\n400 .1 .2 .3\n500 .4 .5 .6\n' >three.spd
+  specconvert three.spd -o chart.exr
+  specconvert chart.exr -f spd | grep -v '^#' >found
+  [ "$(cat found)" = '400 0.1 0.2 0.3
+500 0.4 0.5 0.6' ] || complain "$(cat found)"
+}
+
+@test "the layout of patches is refused where the output is text" {
+  fails_cleanly specconvert --patch 8 15-red
+  fails_cleanly specconvert --patches 2x2 -f spd 15-red
+}
+
+@test "values per band are not interpolated" {
+  spectral a.exr --grid 500:600:50 --quantity 'radiance per band'
+  fails_cleanly specconvert --grid 500:600:25 a.exr -o b.exr
+  specconvert --scale 2 a.exr -o b.exr
+}

@@ -517,3 +517,36 @@ max        0' ] || complain "$answer"
   fails_cleanly specdiff --tolerence max=1 a b
   [[ $stderr = *"did you mean '--tolerance'?" ]]
 }
+
+@test "bins and points are not measured against each other" {
+  spectral a.exr --bins
+  spectral b.exr
+  run --separate-stderr specdiff a.exr b.exr
+  [ "$status" -eq 1 ]
+  [ "$output" = 'bands differ: one has bins, the other has point samples' ] || complain "$output"
+}
+
+@test "values per band and per nm are not measured against each other" {
+  spectral a.exr --quantity 'radiance per band'
+  spectral b.exr --quantity 'radiance per nm'
+  run --separate-stderr specdiff a.exr b.exr
+  [ "$status" -eq 1 ]
+  [ "$output" = "quantities differ: 'radiance per band' and 'radiance per nm'" ] || complain "$output"
+}
+
+@test "images of different kinds: kind, bands and channels are told" {
+  spectral a.exr --kind T --grid 400:500:50
+  spectral b.exr --channel R --channel G --channel B
+  run --separate-stderr specdiff a.exr b.exr
+  [ "$status" -eq 1 ]
+  [[ $output = *'bands differ: 3 and 0'*"'reflectance' and 'no bands'"*"channel 'R' is only in the second"* ]] ||
+    complain "$output"
+}
+
+@test "a difference that is seen at once lets the upstream finish" {
+  spectral a.exr --size 64x400 --compression none
+  spectral b.exr
+  cat a.exr | specdiff - b.exr >report || true
+  codes=("${PIPESTATUS[@]}")
+  [ "$(cat a.exr | { specdiff - b.exr >report; }; echo "${PIPESTATUS[0]}")" = 0 ] || complain "${codes[*]}"
+}
