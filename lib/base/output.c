@@ -11,6 +11,7 @@
 
 #include "base/memory.h"
 
+#define MOST_NAMES 100       /* tried for a temporary file */
 #define MOST_LINKS 40        /* as the kernel has it */
 #define PIPE_BYTES (1 << 20) /* a larger pipe halves the number of switches */
 
@@ -51,46 +52,65 @@ folder_of(const char *path, struct spec_error *error)
 		     : spec_memory_text("./", 2, error);
 }
 
-/* A new temporary name beside target; the file is made only where fd is to be opened. */
-static char *
-temporary_name(const char *target, struct spec_error *error)
+/* A name beside the target that nobody is likely to have; another one for each attempt. */
+static enum spec_status
+name_temporary(struct spec_output *output, int attempt, struct spec_error *error)
 {
-	size_t size = strlen(target) + 16;
-	char *name = spec_memory_new(size, 1, "bytes of a file name", error);
+	size_t size = strlen(output->target) + 48;
 
-	if (name)
-		snprintf(name, size, "%s.XXXXXX", target);
-	return name;
+	free(output->temporary);
+	output->temporary = spec_memory_new(size, 1, "bytes of a file name", error);
+	if (!output->temporary)
+		return SPEC_ENOMEM;
+	snprintf(output->temporary, size, "%s.%ld-%d", output->target, (long)getpid(),
+		attempt);
+	return SPEC_OK;
 }
 
+static void
+forget_temporary(struct spec_output *output)
+{
+	free(output->temporary);
+	output->temporary = NULL;
+}
+
+/* Where the file system has no files without a name. */
 static enum spec_status
-open_beside(struct spec_output *output, mode_t mode, struct spec_error *error)
+open_temporary(struct spec_output *output, struct spec_error *error)
+{
+	int failure = EEXIST;
+
+	for (int attempt = 0; attempt < MOST_NAMES && failure == EEXIST; attempt++) {
+		if (name_temporary(output, attempt, error) != SPEC_OK)
+			return SPEC_ENOMEM;
+		output->fd = open(
+			output->temporary, O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
+		if (output->fd >= 0)
+			return SPEC_OK;
+		failure = errno;
+	}
+	forget_temporary(output);
+	return spec_error_system(error, failure, "unable to create '%s'", output->path);
+}
+
+/* kept: the file that will be replaced, whose permissions are kept; or null. */
+static enum spec_status
+open_beside(struct spec_output *output, const struct stat *kept, struct spec_error *error)
 {
 	char *folder = folder_of(output->target, error);
+	enum spec_status status = SPEC_OK;
 
 	if (!folder)
 		return SPEC_ENOMEM;
 	/* A file without a name cannot be left behind, not even by SIGKILL. */
-	output->fd = open(folder, O_TMPFILE | O_WRONLY | O_CLOEXEC, mode);
+	output->fd = open(folder, O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666);
 	free(folder);
-	if (output->fd < 0) {
-		output->temporary = temporary_name(output->target, error);
-		if (!output->temporary)
-			return SPEC_ENOMEM;
-		output->fd = mkostemp(output->temporary, O_CLOEXEC);
-		if (output->fd < 0) {
-			int failure = errno;
-
-			free(output->temporary);
-			output->temporary = NULL;
-			return spec_error_system(
-				error, failure, "unable to create '%s'", output->path);
-		}
-	}
-	(void)fchmod(
-		output->fd, mode); /* the umask has taken bits of a mode that is kept */
-	output->seekable = 1;
-	return SPEC_OK;
+	if (output->fd < 0)
+		status = open_temporary(output, error);
+	if (status == SPEC_OK && kept)
+		(void)fchmod(output->fd, kept->st_mode & 0777);
+	output->seekable = status == SPEC_OK;
+	return status;
 }
 
 /* The link's text as a path: beside the link, where it is relative. */
@@ -143,10 +163,8 @@ static enum spec_status
 open_named(struct spec_output *output, struct spec_error *error)
 {
 	struct stat status;
-	mode_t mask = umask(0);
 	enum spec_status resolved;
 
-	umask(mask);
 	if (stat(output->path, &status) == 0 && !S_ISREG(status.st_mode)) {
 		if (S_ISDIR(status.st_mode))
 			return spec_error_set(
@@ -164,9 +182,8 @@ open_named(struct spec_output *output, struct spec_error *error)
 	resolved = resolve(output, error);
 	if (resolved != SPEC_OK)
 		return resolved;
-	if (stat(output->target, &status) == 0)
-		return open_beside(output, status.st_mode & 0777, error);
-	return open_beside(output, 0666 & ~mask, error);
+	return open_beside(
+		output, stat(output->target, &status) == 0 ? &status : NULL, error);
 }
 
 enum spec_status
@@ -236,30 +253,20 @@ spec_output_write_at(struct spec_output *output, const void *data, size_t size,
 static enum spec_status
 give_name(struct spec_output *output, struct spec_error *error)
 {
+	int failure = EEXIST;
 	char from[64];
 
 	snprintf(from, sizeof from, "/proc/self/fd/%d", output->fd);
-	for (int attempt = 0; attempt < 100; attempt++) {
-		int guard;
-
-		free(output->temporary);
-		output->temporary = temporary_name(output->target, error);
-		if (!output->temporary)
+	for (int attempt = 0; attempt < MOST_NAMES && failure == EEXIST; attempt++) {
+		if (name_temporary(output, attempt, error) != SPEC_OK)
 			return SPEC_ENOMEM;
-		guard = mkostemp(output->temporary, O_CLOEXEC); /* for the name alone */
-		if (guard < 0)
-			break;
-		close(guard);
-		unlink(output->temporary);
 		if (linkat(AT_FDCWD, from, AT_FDCWD, output->temporary,
 			    AT_SYMLINK_FOLLOW) == 0)
 			return SPEC_OK;
-		if (errno != EEXIST)
-			break;
+		failure = errno;
 	}
-	free(output->temporary);
-	output->temporary = NULL;
-	return spec_error_system(error, errno, "unable to create '%s'", output->path);
+	forget_temporary(output);
+	return spec_error_system(error, failure, "unable to create '%s'", output->path);
 }
 
 /*
@@ -328,28 +335,26 @@ spec_output_save(const char *path, const void *data, size_t size, struct spec_er
 	return status;
 }
 
-int
-spec_output_scratch(struct spec_error *error)
+enum spec_status
+spec_output_scratch(int *fd, struct spec_error *error)
 {
 	const char *folder = getenv("TMPDIR");
 	char *name;
-	int fd;
 
 	if (!folder || !*folder)
 		folder = "/tmp";
-	fd = open(folder, O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
-	if (fd >= 0)
-		return fd;
+	*fd = open(folder, O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
+	if (*fd >= 0)
+		return SPEC_OK;
 	name = spec_memory_new(strlen(folder) + 32, 1, "bytes of a file name", error);
 	if (!name)
-		return -1;
+		return SPEC_ENOMEM;
 	sprintf(name, "%s/spectools.XXXXXX", folder);
-	fd = mkostemp(name, O_CLOEXEC);
-	if (fd < 0)
-		spec_error_system(
-			error, errno, "unable to create a temporary file in '%s'", folder);
-	else
+	*fd = mkostemp(name, O_CLOEXEC);
+	if (*fd >= 0)
 		(void)unlink(name);
 	free(name);
-	return fd;
+	return *fd >= 0 ? SPEC_OK
+			: spec_error_system(error, errno,
+				  "unable to create a temporary file in '%s'", folder);
 }

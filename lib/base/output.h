@@ -48,7 +48,7 @@ void spec_output_abandon(struct spec_output *output);
 enum spec_status spec_output_save(
 	const char *path, const void *data, size_t size, struct spec_error *error);
 
-/* A nameless temporary file in TMPDIR, else /tmp; its descriptor, or -1 with the error set. */
-int spec_output_scratch(struct spec_error *error);
+/* A nameless temporary file in TMPDIR, else /tmp: its descriptor in *fd. */
+enum spec_status spec_output_scratch(int *fd, struct spec_error *error);
 
 #endif

@@ -269,9 +269,9 @@ spec_source_spool(struct spec_source *source, struct spec_error *error)
 	struct spec_output scratch = {.path = (char[]){"a temporary file"}};
 	enum spec_status status;
 
-	scratch.fd = spec_output_scratch(error);
-	if (scratch.fd < 0)
-		return SPEC_EIO;
+	status = spec_output_scratch(&scratch.fd, error);
+	if (status != SPEC_OK)
+		return status;
 	status = copy_rest(source, &scratch, error);
 	if (status != SPEC_OK) {
 		close(scratch.fd);

@@ -39,8 +39,9 @@ void spec_source_close(struct spec_source *source);
 /*
  * Reads up to size bytes at the offset; *got < size only at the end. From a stream, offsets below what was taken are served
  * from the head; beyond it the stream is read forward, skipping what is between.
- * Not safe for two threads at once on a stream. Errors: the system's, reading
- * more than head_limit before sealing (SPEC_ERANGE), going back in a stream.
+ * Before sealing, a read ends at head_limit. Not safe for two threads at once on a
+ * stream. Errors: the system's, a read that begins at head_limit or beyond before
+ * sealing (SPEC_ERANGE), going back in a stream.
  */
 enum spec_status spec_source_read(struct spec_source *source, void *data, size_t size,
 	int64_t offset, size_t *got, struct spec_error *error);

@@ -355,6 +355,7 @@ spec_image_rename_bands(
 			return SPEC_ENOMEM;
 		free(channel->name);
 		channel->name = renamed;
+		channel->naming = SPEC_NAMING_LAYOUT;
 	}
 	if (image->edges_nm && !spec_image_attribute(image, "spec:bins"))
 		status = spec_image_set_bins(image, image->edges_nm, image->bands, error);

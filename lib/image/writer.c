@@ -225,9 +225,8 @@ settle_output(struct spec_writer *writer, int compression, struct spec_error *er
 	writer->streaming = !output->seekable && compression == EXR_COMPRESSION_NONE;
 	if (!output->seekable && !writer->streaming) {
 		writer->scratch.path = output->path;
-		writer->scratch.fd = spec_output_scratch(error);
-		if (writer->scratch.fd < 0)
-			return SPEC_EIO;
+		if (spec_output_scratch(&writer->scratch.fd, error) != SPEC_OK)
+			return error ? error->status : SPEC_EIO;
 		writer->scratched = 1;
 	}
 	return SPEC_OK;

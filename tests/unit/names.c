@@ -329,7 +329,8 @@ test_index_unfit(void **state)
 	(void)state;
 	ASSERT_UNFIT("two grids in one file?", "S0.500,000000nm", "S0.500,0nm");
 	ASSERT_UNFIT("two grids in one file?", "S0.500nm", "S0.0,5um", "S0.600nm");
-	ASSERT_UNFIT("same band", "Radiance.C11", "S0.500nm");
+	ASSERT_UNFIT("two grids", "Radiance.C11", "S0.500nm");
+	ASSERT_UNFIT("two grids", "S0.500nm", "S0.600nm", "400.00-410.00nm");
 	ASSERT_UNFIT("same band", "T.500nm", "T.500nm.500nm");
 	ASSERT_UNFIT("emissive and reflective", "S0.500nm", "T.500nm");
 	ASSERT_UNFIT("emissive and reflective", "S0.500nm", "T.500nm.600nm");
@@ -476,7 +477,7 @@ test_bins_of_names(void **state)
 static void
 test_rename(void **state)
 {
-	struct spec_image image = INDEXED("S0.1,5um", "A", "S0.374,688nm", "Radiance.C01");
+	struct spec_image image = INDEXED("S0.1,5um", "A", "S0.374,688nm", "S0.0,4um");
 	struct spec_error error;
 
 	(void)state;
@@ -487,6 +488,11 @@ test_rename(void **state)
 	assert_string_equal(image.channel[3].name, "S0.400,000000nm");
 	assert_int_equal(image.bands, 3);
 	assert_int_equal(image.band_channel[2], 1);
+	spec_image_clear(&image);
+	image = INDEXED("Radiance.C01", "Radiance.C02");
+	check(spec_image_rename_bands(&image, "a", &error), &error);
+	assert_string_equal(image.channel[1].name, "S0.410,000000nm");
+	assert_int_equal(image.channel[1].naming, SPEC_NAMING_LAYOUT);
 	spec_image_clear(&image);
 	image = INDEXED("w420nm", "w430nm");
 	check(spec_image_rename_bands(&image, "a", &error), &error);
