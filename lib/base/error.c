@@ -49,15 +49,15 @@ spec_error_system(struct spec_error *error, int errnum, const char *format, ...)
 	return status;
 }
 
-enum spec_status
+void
 spec_error_prefix(struct spec_error *error, const char *format, ...)
 {
-	char old[sizeof error->message];
+	char old[sizeof((struct spec_error *)0)->message];
 	va_list arguments;
 	size_t length;
 
 	if (!error)
-		return SPEC_OK;
+		return;
 	memcpy(old, error->message, sizeof old);
 	va_start(arguments, format);
 	vsnprintf(error->message, sizeof error->message, format, arguments);
@@ -65,5 +65,4 @@ spec_error_prefix(struct spec_error *error, const char *format, ...)
 	length = strlen(error->message);
 	snprintf(error->message + length, sizeof error->message - length, ": %s", old);
 	spec_error_plain(error->message);
-	return error->status;
 }

@@ -32,8 +32,8 @@ enum spec_status spec_error_set(struct spec_error *error, enum spec_status statu
 enum spec_status spec_error_system(struct spec_error *error, int errnum, const char *format,
 	...) __attribute__((format(printf, 3, 4)));
 
-/* Puts "prefix: " before the message that is there; returns its status. */
-enum spec_status spec_error_prefix(struct spec_error *error, const char *format, ...)
+/* Puts "prefix: " before the message that is there. */
+void spec_error_prefix(struct spec_error *error, const char *format, ...)
 	__attribute__((format(printf, 2, 3)));
 
 #endif

@@ -70,6 +70,7 @@ static enum spec_status
 start(struct spec_reader *reader, struct spec_error *error)
 {
 	exr_context_initializer_t setup = EXR_DEFAULT_CONTEXT_INITIALIZER;
+	enum spec_status status;
 	exr_result_t result;
 
 	setup.error_handler_fn = spec_exr_report;
@@ -86,12 +87,13 @@ start(struct spec_reader *reader, struct spec_error *error)
 	result = exr_start_read(&reader->context, reader->source.name, &setup);
 	if (result == EXR_ERR_SUCCESS)
 		return SPEC_OK;
-	spec_exr_error(result, "the header is damaged or cut short", error);
+	status = spec_exr_error(result, "the header is damaged or cut short", error);
 	if (error && strstr(error->message, "data window"))
 		return spec_error_set(error, SPEC_ERANGE,
 			"%s: the data window is empty or reaches beyond 2^30",
 			reader->source.name);
-	return spec_error_prefix(error, "%s", reader->source.name);
+	spec_error_prefix(error, "%s", reader->source.name);
+	return status;
 }
 
 static enum spec_status

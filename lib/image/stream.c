@@ -28,18 +28,15 @@ at_most(long long a, long long b)
 	return (int)(a < b ? a : b);
 }
 
+/* The least of a and b, both >= 1. */
 static long long
 common_multiple(long long a, long long b)
 {
-	long long x = a, y = b;
+	long long multiple = a;
 
-	while (y != 0) {
-		long long rest = x % y;
-
-		x = y;
-		y = rest;
-	}
-	return a / x * b;
+	while (multiple % b != 0) /* both are small: lines of a chunk, of a pixel */
+		multiple += a;
+	return multiple;
 }
 
 /*

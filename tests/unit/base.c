@@ -71,7 +71,9 @@ test_error_prefix(void **state)
 
 	(void)state;
 	spec_error_set(&error, SPEC_ERANGE, "too long");
-	assert_int_equal(spec_error_prefix(&error, "%s:%d", "a\nb.spd", 3), SPEC_ERANGE);
+	spec_error_prefix(&error, "%s:%d", "a\nb.spd", 3);
+	assert_int_equal(error.status, SPEC_ERANGE);
+	spec_error_prefix(NULL, "nobody asked");
 	assert_string_equal(error.message, "a?b.spd:3: too long");
 }
 

@@ -1586,10 +1586,31 @@ test_library_reads(void **state)
 	}
 }
 
+/* Who does not ask for the message is told of the failure all the same. */
+static void
+test_no_message(void **state)
+{
+	static const unsigned char start[16] = {0x76, 0x2f, 0x31, 0x01, 2};
+	char path[] = "/tmp/exr.XXXXXX";
+	struct spec_settings settings;
+	struct spec_reader *reader = NULL;
+	int fd = mkstemp(path);
+
+	(void)state;
+	assert_true(fd >= 0);
+	assert_int_equal(write(fd, start, sizeof start), sizeof start);
+	assert_int_equal(close(fd), 0);
+	spec_settings_init(&settings);
+	assert_int_equal(spec_reader_open(&reader, path, &settings, NULL), SPEC_EFORMAT);
+	assert_null(reader);
+	unlink(path);
+}
+
 int
 main(void)
 {
 	const struct CMUnitTest tests[] = {
+		cmocka_unit_test(test_no_message),
 		cmocka_unit_test(test_halves),
 		cmocka_unit_test(test_half_rounding),
 		cmocka_unit_test_setup_teardown(test_round_trips, set_up, tear_down),
