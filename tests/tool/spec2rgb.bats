@@ -441,3 +441,13 @@ quiet() {
   done
   no_leftovers . a.exr
 }
+
+@test "progress shows bar, rate and time left when it is asked for, and not otherwise" {
+  spectral a.exr --size 16x64
+  spec2rgb --progress a.exr -o a.png 2>said
+  grep -q '\] 100%.* lines/s .* s left' said || complain "$(cat said)"
+  spec2rgb a.exr -o a.png 2>said
+  [ ! -s said ]
+  spec2rgb -q --progress a.exr -o a.png 2>said
+  [ ! -s said ]
+}
