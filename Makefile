@@ -20,10 +20,6 @@ ifneq ($(SAN),)
 comma = ,
 BUILD = build/san-$(subst $(comma),-,$(SAN))
 SANFLAGS = -fsanitize=$(SAN) -fno-sanitize-recover=all -fno-omit-frame-pointer
-# The clones are chosen before the thread sanitizer is there, and crash in it.
-ifneq ($(findstring thread,$(SAN)),)
-SANFLAGS += '-Dtarget_clones(...)='
-endif
 else
 BUILD = build
 SANFLAGS =

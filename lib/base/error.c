@@ -22,6 +22,7 @@ spec_error_set(struct spec_error *error, enum spec_status status, const char *fo
 	if (!error)
 		return status;
 	error->status = status;
+	error->place[0] = '\0';
 	va_start(arguments, format);
 	vsnprintf(error->message, sizeof error->message, format, arguments);
 	va_end(arguments);
@@ -39,6 +40,7 @@ spec_error_system(struct spec_error *error, int errnum, const char *format, ...)
 	if (!error)
 		return status;
 	error->status = status;
+	error->place[0] = '\0';
 	va_start(arguments, format);
 	vsnprintf(error->message, sizeof error->message, format, arguments);
 	va_end(arguments);
@@ -47,6 +49,38 @@ spec_error_system(struct spec_error *error, int errnum, const char *format, ...)
 		strerror(errnum));
 	spec_error_plain(error->message);
 	return status;
+}
+
+static int
+continues(char byte)
+{
+	return ((unsigned char)byte & 0xc0) ==
+	       0x80; /* not the first byte of a UTF-8 character */
+}
+
+void
+spec_error_point(struct spec_error *error, const char *text, size_t at)
+{
+	enum { BEFORE = 48, AFTER = 24 };
+	char excerpt[BEFORE + AFTER + 1];
+	size_t length = strlen(text), start, end, column = 0;
+
+	if (!error)
+		return;
+	if (at > length)
+		at = length;
+	start = at > BEFORE ? at - BEFORE : 0;
+	end = length - at > AFTER ? at + AFTER : length;
+	while (start < at && continues(text[start]))
+		start++;
+	while (end < length && end > at && continues(text[end]))
+		end--;
+	for (size_t i = start; i < at; i++)
+		column += !continues(text[i]);
+	snprintf(excerpt, sizeof excerpt, "%.*s", (int)(end - start), text + start);
+	spec_error_plain(excerpt);
+	snprintf(error->place, sizeof error->place, "  %s\n  %*s^", excerpt, (int)column,
+		"");
 }
 
 void

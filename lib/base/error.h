@@ -6,6 +6,8 @@
 #ifndef SPEC_BASE_ERROR_H
 #define SPEC_BASE_ERROR_H
 
+#include <stddef.h>
+
 enum spec_status {
 	SPEC_OK,
 	SPEC_EUSAGE,       /* the caller asked for something that makes no sense */
@@ -19,6 +21,8 @@ enum spec_status {
 struct spec_error {
 	enum spec_status status;
 	char message[1024]; /* one line, lower case, no full stop */
+	char place
+		[256]; /* "", or two lines: what the user wrote, and a caret under the fault */
 };
 
 /* Replaces line breaks and other control characters: names in files may hold anything. */
@@ -31,6 +35,12 @@ enum spec_status spec_error_set(struct spec_error *error, enum spec_status statu
 /* As spec_error_set, and appends ": " and the text of the errno given. */
 enum spec_status spec_error_system(struct spec_error *error, int errnum, const char *format,
 	...) __attribute__((format(printf, 3, 4)));
+
+/*
+ * Shows where in a text the fault lies, for an error that is set: error->place becomes the
+ * text (of a long one the part around the fault) and, under byte at of it, a caret.
+ */
+void spec_error_point(struct spec_error *error, const char *text, size_t at);
 
 /* Puts "prefix: " before the message that is there. */
 void spec_error_prefix(struct spec_error *error, const char *format, ...)

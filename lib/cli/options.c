@@ -263,6 +263,8 @@ void
 cli_die(const struct cli *cli, const struct spec_error *error)
 {
 	fprintf(stderr, "%s: %s\n", cli->program->name, error->message);
+	if (error->place[0])
+		fprintf(stderr, "%s\n", error->place);
 	exit(EXIT_TROUBLE);
 }
 

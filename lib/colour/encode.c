@@ -3,9 +3,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/vector.h"
 #include "colour/space.h"
-
-#define CLONES __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
 
 #define BLOCK 256 /* samples at a time */
 
@@ -102,7 +101,7 @@ spec_encoder_init(struct spec_encoder *encoder)
  * The bits of each float, brought into [LOWEST8, 1), above those of LOWEST8. The
  * comparisons are false for a NaN, which so becomes the lowest.
  */
-CLONES static void
+SPEC_VECTORISED static void
 clamp_bits8(const float *restrict linear, size_t count, uint32_t *restrict clamped)
 {
 	uint32_t bits;

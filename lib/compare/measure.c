@@ -4,9 +4,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/vector.h"
 #include "colour/difference.h"
-
-#define CLONES __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
 
 /* Pixels at a time: the sums stay in the first-level cache, 81 bands in the second. */
 #define CHUNK 64
@@ -57,7 +56,7 @@ sum_value(const struct spec_measure_sum *sum)
 }
 
 /* The bits of a magnitude order as the magnitudes do. */
-CLONES static float
+SPEC_VECTORISED static float
 largest_magnitude(const float *a, size_t n)
 {
 	int32_t largest = 0, bits;
@@ -73,7 +72,7 @@ largest_magnitude(const float *a, size_t n)
 	return value;
 }
 
-CLONES static void
+SPEC_VECTORISED static void
 add_squares(const float *restrict a, const float *restrict b, size_t n, double *restrict aa,
 	double *restrict bb, double *restrict square, double *restrict worst)
 {
@@ -93,7 +92,7 @@ add_squares(const float *restrict a, const float *restrict b, size_t n, double *
 }
 
 /* scale_a, scale_b: the inverse lengths. Equal spectra cancel exactly. */
-CLONES static void
+SPEC_VECTORISED static void
 add_units(const float *restrict a, const float *restrict b, size_t n,
 	const double *restrict scale_a, const double *restrict scale_b,
 	double *restrict minus, double *restrict plus)
@@ -109,7 +108,7 @@ add_units(const float *restrict a, const float *restrict b, size_t n,
 	}
 }
 
-CLONES static void
+SPEC_VECTORISED static void
 add_colour(const float *restrict a, size_t n, double wx, double wy, double wz,
 	double *restrict xyz)
 {

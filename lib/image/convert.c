@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "base/vector.h"
 
 #define RUN 256 /* pixels summed at a time */
 
@@ -449,14 +450,14 @@ spec_convert_free(struct spec_convert *convert)
 	*convert = (struct spec_convert){0};
 }
 
-__attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default"))) static void
+SPEC_VECTORISED static void
 scale_row(float *restrict to, const float *restrict from, double weight, size_t count)
 {
 	for (size_t x = 0; x < count; x++)
 		to[x] = (float)(weight * from[x]);
 }
 
-__attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default"))) static void
+SPEC_VECTORISED static void
 blend_row(float *restrict to, const float *restrict a, const float *restrict b, double wa,
 	double wb, size_t count)
 {

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "base/vector.h"
 #include "colour/observer.h"
 
 #define RUN 256 /* pixels whose sums stay in the nearest cache */
@@ -206,7 +207,7 @@ spec_rgb_free(struct spec_rgb *rgb)
 }
 
 /* Adds four channels at once: the sums are loaded and stored a quarter as often. */
-__attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default"))) static void
+SPEC_VECTORISED static void
 add_four(double *restrict sum, const float *restrict a, const float *restrict b,
 	const float *restrict c, const float *restrict d, const double *w, size_t room,
 	size_t count)
