@@ -127,27 +127,106 @@ spec_number_parse_bytes(
 	return SPEC_OK;
 }
 
+struct unit {
+	const char *suffix;
+	double factor;
+};
+
+/* A number with one of so many suffixes, times its factor; 0: it has none of them. */
+static int
+scan_quantity(const char *text, const struct unit *unit, size_t units, double *value)
+{
+	double number;
+	size_t length = spec_number_scan(text, '.', &number);
+
+	for (size_t i = 0; length > 0 && i < units; i++) {
+		if (strcmp(text + length, unit[i].suffix) == 0) {
+			*value = number * unit[i].factor;
+			return 1;
+		}
+	}
+	return 0;
+}
+
+static int
+scan_length(const char *text, double *length_nm)
+{
+	static const struct unit units[] = {
+		{"", 1}, {"nm", 1}, {"um", 1e3}, {"mm", 1e6}, {"cm", 1e7}, {"m", 1e9}};
+
+	return scan_quantity(text, units, sizeof units / sizeof units[0], length_nm);
+}
+
 enum spec_status
 spec_number_parse_length(
 	const char *text, const char *what, double *length_nm, struct spec_error *error)
 {
-	static const struct {
-		const char *suffix;
-		double nm;
-	} units[] = {{"", 1}, {"nm", 1}, {"um", 1e3}, {"mm", 1e6}, {"cm", 1e7}, {"m", 1e9}};
 	double value;
-	size_t length = spec_number_scan(text, '.', &value);
+	enum spec_status status = spec_number_parse_thickness(text, what, &value, error);
 
-	for (size_t i = 0; length > 0 && i < sizeof units / sizeof units[0]; i++) {
-		if (strcmp(text + length, units[i].suffix) != 0)
-			continue;
-		value *= units[i].nm;
-		if (!(value > 0) || !isfinite(value))
-			return spec_error_set(error, SPEC_ERANGE,
-				"%s is not positive and finite: '%s'", what, text);
+	if (status == SPEC_OK && value == 0)
+		status = spec_error_set(error, SPEC_ERANGE,
+			"%s is not positive and finite: '%s'", what, text);
+	if (status == SPEC_OK)
 		*length_nm = value;
-		return SPEC_OK;
-	}
-	return spec_error_set(error, SPEC_EUSAGE,
-		"%s is not a length in nm, um, mm, cm or m: '%s'", what, text);
+	return status;
+}
+
+enum spec_status
+spec_number_parse_thickness(
+	const char *text, const char *what, double *length_nm, struct spec_error *error)
+{
+	double value;
+
+	if (!scan_length(text, &value))
+		return spec_error_set(error, SPEC_EUSAGE,
+			"%s is not a length in nm, um, mm, cm or m: '%s'", what, text);
+	if (!(value >= 0) || !isfinite(value))
+		return spec_error_set(error, SPEC_ERANGE,
+			"%s is not positive and finite: '%s'", what, text);
+	*length_nm = value;
+	return SPEC_OK;
+}
+
+enum spec_status
+spec_number_parse_angle(const char *text, double minimum_deg, double maximum_deg,
+	const char *what, double *angle_deg, struct spec_error *error)
+{
+	static const struct unit units[] = {
+		{"", 1}, {"deg", 1}, {"rad", 57.295779513082320877}};
+	double value;
+
+	if (!scan_quantity(text, units, sizeof units / sizeof units[0], &value))
+		return spec_error_set(error, SPEC_EUSAGE,
+			"%s is not an angle in deg or rad: '%s'", what, text);
+	if (!(value >= minimum_deg && value <= maximum_deg))
+		return spec_error_set(error, SPEC_ERANGE, "%s is outside %g..%g deg: '%s'",
+			what, minimum_deg, maximum_deg, text);
+	*angle_deg = value;
+	return SPEC_OK;
+}
+
+enum spec_status
+spec_number_parse_size(const char *text, long long most, const char *what, int *width,
+	int *height, struct spec_error *error)
+{
+	size_t length = strcspn(text, "x");
+	char first[32];
+	long long value[2];
+	enum spec_status status;
+
+	if (text[length] != 'x' || length >= sizeof first)
+		return spec_error_set(
+			error, SPEC_EUSAGE, "%s is not WxH: '%s'", what, text);
+	memcpy(first, text, length);
+	first[length] = '\0';
+	status = spec_number_parse_whole(first, 1, most, what, &value[0], error);
+	if (status == SPEC_OK)
+		status = spec_number_parse_whole(
+			text + length + 1, 1, most, what, &value[1], error);
+	if (status != SPEC_OK)
+		return status;
+	*width = (int)value[0];
+	*height = (int)value[1];
+	return SPEC_OK;
 }

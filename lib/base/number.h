@@ -29,6 +29,21 @@ enum spec_status spec_number_parse_bytes(
 enum spec_status spec_number_parse_length(
 	const char *text, const char *what, double *length_nm, struct spec_error *error);
 
+/* As spec_number_parse_length, and 0 is valid too. */
+enum spec_status spec_number_parse_thickness(
+	const char *text, const char *what, double *length_nm, struct spec_error *error);
+
+/*
+ * An angle in degrees in [minimum_deg, maximum_deg]: a number with an optional unit deg or
+ * rad; a bare number is degrees.
+ */
+enum spec_status spec_number_parse_angle(const char *text, double minimum_deg,
+	double maximum_deg, const char *what, double *angle_deg, struct spec_error *error);
+
+/* "WxH": two whole numbers from 1 to most, which is at most 2^31 - 1. */
+enum spec_status spec_number_parse_size(const char *text, long long most, const char *what,
+	int *width, int *height, struct spec_error *error);
+
 /*
  * The number at the start of a text that need not end there, as the formats
  * write them; mark is the decimal mark, '.' or ','. Returns how many bytes it

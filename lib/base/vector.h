@@ -21,11 +21,22 @@
 #endif
 #endif
 
+/*
+ * Under names of their own: gcc makes sincos of a sine and a cosine of one angle, and then
+ * no vector code of that.
+ */
 #if defined(__x86_64__) && !defined(__clang__)
-extern double cos(double) __attribute__((simd("notinbranch"), const));
-extern double exp(double) __attribute__((simd("notinbranch"), const));
-extern float cosf(float) __attribute__((simd("notinbranch"), const));
-extern float expf(float) __attribute__((simd("notinbranch"), const));
+#define SPEC_VECTOR_FUNCTION(type, name, function)                                         \
+	extern type name(type) __asm__(function) __attribute__((simd("notinbranch"), const))
+SPEC_VECTOR_FUNCTION(double, spec_vector_sin, "sin");
+SPEC_VECTOR_FUNCTION(double, spec_vector_cos, "cos");
+SPEC_VECTOR_FUNCTION(double, spec_vector_exp, "exp");
+SPEC_VECTOR_FUNCTION(float, spec_vector_expf, "expf");
+#else
+#define spec_vector_sin sin
+#define spec_vector_cos cos
+#define spec_vector_exp exp
+#define spec_vector_expf expf
 #endif
 
 #endif

@@ -725,7 +725,7 @@ static void
 refused(const struct spec_curve *observer, const struct spec_curve *illuminant,
 	struct spec_bands bands, enum spec_status status, const char *part)
 {
-	struct spec_error error = {SPEC_OK, ""};
+	struct spec_error error = {0};
 	double weight[30], outside;
 
 	assert_int_equal(spec_observer_weights(
