@@ -7,7 +7,6 @@
 
 #include "base/memory.h"
 #include "base/number.h"
-#include "base/output.h"
 #include "base/source.h"
 #include "cli/options.h"
 #include "cli/progress.h"
@@ -89,28 +88,6 @@ take_crop(struct spec_convert_setup *setup, const char *text, struct spec_error 
 		text += length + (i < 3);
 	}
 	return SPEC_OK;
-}
-
-static enum spec_status
-take_patches(struct spec_patches_setup *patches, const char *text, struct spec_error *error)
-{
-	char columns[32];
-	size_t length = strcspn(text, "x");
-	long long value;
-	enum spec_status status;
-
-	if (text[length] != 'x' || length >= sizeof columns)
-		return spec_error_set(error, SPEC_EUSAGE, "'%s' is not COLUMNSxROWS", text);
-	snprintf(columns, sizeof columns, "%.*s", (int)length, text);
-	status = spec_number_parse_whole(
-		columns, 1, MOST_CURVES, "the columns", &value, error);
-	if (status != SPEC_OK)
-		return status;
-	patches->columns = (int)value;
-	status = spec_number_parse_whole(
-		text + length + 1, 1, MOST_CURVES, "the rows", &value, error);
-	patches->rows = (int)value;
-	return status;
 }
 
 static enum spec_status
@@ -226,7 +203,8 @@ take_option(struct job *job, const char *name, const char *value, struct spec_er
 	if (strcmp(name, "downsample") == 0)
 		return take_pixels(&job->setup.downsample, 1, "the factor", value, error);
 	if (strcmp(name, "patches") == 0)
-		return take_patches(&job->patches, value, error);
+		return spec_number_parse_size(value, MOST_CURVES, "the chart",
+			&job->patches.columns, &job->patches.rows, error);
 	if (strcmp(name, "patch") == 0)
 		return take_pixels(
 			&job->patches.patch, 1, "the side of a patch", value, error);
@@ -368,12 +346,11 @@ load_curve(const struct job *job, const char *name, struct spec_curve *curve,
 
 /* The patches' layout, where none was asked for: one row; on the first curve's own grid. */
 static enum spec_status
-write_chart(const struct job *job, const struct spec_curve *curve, int argc, char **argv,
+write_chart(struct job *job, const struct spec_curve *curve, int argc, char **argv,
 	struct spec_error *error)
 {
 	struct spec_patches_setup patches = job->patches;
 	struct spec_grid own = {curve[0].wavelength_nm, curve[0].count};
-	struct spec_output output;
 	struct spec_image image;
 	enum spec_status status;
 
@@ -386,15 +363,8 @@ write_chart(const struct job *job, const struct spec_curve *curve, int argc, cha
 	if (status == SPEC_OK && job->settings.history)
 		status = spec_image_add_history(&image, argc, argv, error);
 	if (status == SPEC_OK)
-		status = spec_output_open(&output, job->settings.output, error);
-	if (status == SPEC_OK) {
-		status = spec_patches_write(&image, curve, job->inputs, &patches, &output,
-			&job->settings, error);
-		if (status == SPEC_OK)
-			status = spec_output_commit(&output, error);
-		else
-			spec_output_abandon(&output);
-	}
+		status = spec_patches_write(&image, curve, job->inputs, &patches,
+			&job->settings, &job->overflows, error);
 	spec_image_clear(&image);
 	return status;
 }
@@ -440,29 +410,6 @@ convert_curves(struct job *job, int argc, char **argv, struct spec_error *error)
 	for (size_t i = 0; curve && i < job->inputs; i++)
 		spec_curve_free(&curve[i]);
 	free(curve);
-	return status;
-}
-
-static enum spec_status
-write_image(struct job *job, struct spec_reader *reader, struct spec_convert *convert,
-	struct spec_error *error)
-{
-	struct spec_writer *writer = NULL;
-	struct spec_output output;
-	enum spec_status status = spec_output_open(&output, job->settings.output, error);
-
-	if (status != SPEC_OK)
-		return status;
-	status = spec_writer_open(
-		&writer, &convert->image, &output, job->settings.compression, error);
-	if (status == SPEC_OK)
-		status = spec_convert_run(convert, reader, writer, &job->settings, error);
-	if (status == SPEC_OK)
-		job->overflows = spec_writer_overflows(writer);
-	spec_writer_close(writer);
-	if (status == SPEC_OK)
-		return spec_output_commit(&output, error);
-	spec_output_abandon(&output);
 	return status;
 }
 
@@ -516,7 +463,8 @@ convert_image(struct job *job, int argc, char **argv, struct spec_error *error)
 		if (status == SPEC_OK && job->settings.history)
 			status = spec_image_add_history(&convert.image, argc, argv, error);
 		if (status == SPEC_OK)
-			status = write_image(job, reader, &convert, error);
+			status = spec_convert_run(
+				&convert, reader, &job->settings, &job->overflows, error);
 	}
 	spec_convert_free(&convert);
 	spec_reader_close(reader);

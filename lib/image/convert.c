@@ -7,6 +7,7 @@
 
 #include "base/memory.h"
 #include "base/vector.h"
+#include "image/save.h"
 
 #define RUN 256 /* pixels summed at a time */
 
@@ -132,23 +133,6 @@ changes_values(const struct spec_convert_setup *setup)
 	return setup->multiplies > 0 || setup->illuminate || setup->scale != 1;
 }
 
-/* A preview of other values than those in the bands would mislead. */
-static void
-drop_preview(struct spec_image *image)
-{
-	size_t kept = 0;
-
-	for (size_t i = 0; i < image->channels; i++) {
-		const char *name = image->channel[i].name;
-
-		if (strlen(name) == 1 && strchr("RGB", name[0]))
-			free(image->channel[i].name);
-		else
-			image->channel[kept++] = image->channel[i];
-	}
-	image->channels = kept;
-}
-
 static enum spec_sample
 sample_of_bands(const struct spec_image *input, int half)
 {
@@ -192,7 +176,7 @@ set_bands(struct spec_convert *convert, const struct spec_convert_setup *setup,
 				setup->half ? SPEC_SAMPLE_HALF : SPEC_SAMPLE_FLOAT;
 	}
 	if (changes_values(setup))
-		drop_preview(image);
+		spec_image_remove_preview(image);
 	return status == SPEC_OK ? spec_image_rename_bands(image, name, error) : status;
 }
 
@@ -607,25 +591,22 @@ kernel(void *state, struct spec_stream_worker *worker, int line, struct spec_err
 
 enum spec_status
 spec_convert_run(struct spec_convert *convert, struct spec_reader *reader,
-	struct spec_writer *writer, const struct spec_settings *settings,
+	const struct spec_settings *settings, unsigned long long *overflows,
 	struct spec_error *error)
 {
 	struct spec_stream stream = {
 		.reader = {reader},
 		.wanted = {convert->wanted},
 		.readers = 1,
-		.writer = writer,
 		.first_line = convert->input->data.y0 + convert->y0,
 		.lines = (int)spec_window_height(&convert->image.data),
 		.lines_in = convert->downsample,
 		.state = convert,
 		.kernel = kernel,
 	};
-	enum spec_status status;
 
 	if (convert->downsample > 1)
 		stream.scratch_bytes = (size_t)convert->downsample *
 				       (size_t)convert->downsample * sizeof(struct sample);
-	status = spec_stream_run(&stream, settings, error);
-	return status == SPEC_OK ? spec_writer_finish(writer, error) : status;
+	return spec_image_save(&convert->image, &stream, settings, overflows, error);
 }

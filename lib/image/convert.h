@@ -10,8 +10,7 @@
 #include "base/error.h"
 #include "image/image.h"
 #include "image/reader.h"
-#include "image/stream.h"
-#include "image/writer.h"
+#include "image/settings.h"
 #include "spectrum/curve.h"
 #include "spectrum/grid.h"
 
@@ -52,9 +51,9 @@ enum spec_status spec_convert_plan(struct spec_convert *convert,
 	const char *name, struct spec_error *error);
 void spec_convert_free(struct spec_convert *convert);
 
-/* Reads all lines, converts and writes them. */
+/* Reads all lines, converts and writes them to the settings' output; as spec_image_save. */
 enum spec_status spec_convert_run(struct spec_convert *convert, struct spec_reader *reader,
-	struct spec_writer *writer, const struct spec_settings *settings,
+	const struct spec_settings *settings, unsigned long long *overflows,
 	struct spec_error *error);
 
 #endif

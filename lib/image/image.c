@@ -94,18 +94,43 @@ spec_image_add_channel(struct spec_image *image, const char *name, enum spec_sam
 }
 
 void
-spec_image_remove_bands(struct spec_image *image)
+spec_image_remove_channels(
+	struct spec_image *image, int (*goes)(const struct spec_channel *channel))
 {
 	size_t kept = 0;
 
 	clear_index(image);
 	for (size_t i = 0; i < image->channels; i++) {
-		if (image->channel[i].role == SPEC_ROLE_OTHER)
-			image->channel[kept++] = image->channel[i];
-		else
+		if (goes(&image->channel[i]))
 			free(image->channel[i].name);
+		else
+			image->channel[kept++] = image->channel[i];
 	}
 	image->channels = kept;
+}
+
+static int
+is_band(const struct spec_channel *channel)
+{
+	return channel->role != SPEC_ROLE_OTHER;
+}
+
+void
+spec_image_remove_bands(struct spec_image *image)
+{
+	spec_image_remove_channels(image, is_band);
+}
+
+static int
+is_preview(const struct spec_channel *channel)
+{
+	return strlen(channel->name) == 1 && strchr("RGB", channel->name[0]);
+}
+
+void
+spec_image_remove_preview(struct spec_image *image)
+{
+	spec_image_remove_channels(image, is_preview);
 }
 
 enum spec_status

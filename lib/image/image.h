@@ -100,8 +100,18 @@ spec_window_height(const struct spec_window *window)
 enum spec_status spec_image_add_channel(struct spec_image *image, const char *name,
 	enum spec_sample sample, struct spec_error *error);
 
+/* Removes the channels of which goes says so; the image must be indexed again. */
+void spec_image_remove_channels(
+	struct spec_image *image, int (*goes)(const struct spec_channel *channel));
+
 /* Removes every channel of a band, diagonal or not. */
 void spec_image_remove_bands(struct spec_image *image);
+
+/*
+ * Removes the channels R, G, B: a preview of other values than those in the bands would
+ * mislead. The image must be indexed again.
+ */
+void spec_image_remove_preview(struct spec_image *image);
 
 /*
  * Adds the channels of bands in the layout's names.

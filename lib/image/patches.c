@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "image/writer.h"
+#include "image/save.h"
 
 static enum spec_status
 set_header(struct spec_image *image, const struct spec_curve *curve, enum spec_role role,
@@ -112,57 +112,54 @@ patch_at(const struct spec_patches_setup *setup, size_t patches, int x, int y)
 	return index < patches ? index : patches;
 }
 
+/* What the lines of a chart are made of. */
+struct chart {
+	const struct spec_image *image;
+	const struct spec_patches_setup *setup;
+	size_t patches;
+	double *value; /* [patches][bands] */
+};
+
 static enum spec_status
-write_lines(const struct spec_image *image, size_t patches,
-	const struct spec_patches_setup *setup, const double *value,
-	struct spec_packer *packer, struct spec_error *error)
+kernel(void *state, struct spec_stream_worker *worker, int line, struct spec_error *error)
 {
+	const struct chart *chart = state;
+	const struct spec_image *image = chart->image;
 	size_t width = spec_window_width(&image->data);
-	enum spec_status status = SPEC_OK;
 	float *const *plane;
+	enum spec_status status = spec_packer_begin(worker->packer, line, &plane, error);
 
-	for (int y = 0; y < image->data.y1 && status == SPEC_OK; y++) {
-		status = spec_packer_begin(packer, y, &plane, error);
-		for (size_t i = 0; i < image->bands && status == SPEC_OK; i++) {
-			float *row = plane[image->band_channel[i]];
+	for (size_t i = 0; i < image->bands && status == SPEC_OK; i++) {
+		float *row = plane[image->band_channel[i]];
 
-			for (size_t x = 0; x < width; x++) {
-				size_t index = patch_at(setup, patches, (int)x, y);
+		for (size_t x = 0; x < width; x++) {
+			size_t index = patch_at(chart->setup, chart->patches, (int)x, line);
 
-				row[x] = index < patches
-						 ? (float)value[index * image->bands + i]
-						 : 0;
-			}
+			row[x] = index < chart->patches
+					 ? (float)chart->value[index * image->bands + i]
+					 : 0;
 		}
-		if (status == SPEC_OK)
-			status = spec_packer_end(packer, y, error);
 	}
-	return status;
+	return status == SPEC_OK ? spec_packer_end(worker->packer, line, error) : status;
 }
 
 enum spec_status
 spec_patches_write(const struct spec_image *image, const struct spec_curve *curve,
-	size_t curves, const struct spec_patches_setup *setup, struct spec_output *output,
-	const struct spec_settings *settings, struct spec_error *error)
+	size_t curves, const struct spec_patches_setup *setup,
+	const struct spec_settings *settings, unsigned long long *overflows,
+	struct spec_error *error)
 {
-	struct spec_writer *writer = NULL;
-	struct spec_packer *packer = NULL;
-	double *value = NULL;
-	enum spec_status status = sample(curve, curves, setup, &value, error);
+	struct chart chart = {image, setup, spec_patches_count(curve, curves), NULL};
+	struct spec_stream stream = {.lines = (int)spec_window_height(&image->data),
+		.lines_in = 1,
+		.state = &chart,
+		.kernel = kernel};
+	enum spec_status status = sample(curve, curves, setup, &chart.value, error);
 
+	*overflows = 0;
 	if (status == SPEC_OK)
-		status = spec_writer_open(
-			&writer, image, output, settings->compression, error);
-	if (status == SPEC_OK)
-		status = spec_packer_open(&packer, writer, error);
-	if (status == SPEC_OK)
-		status = write_lines(image, spec_patches_count(curve, curves), setup, value,
-			packer, error);
-	if (status == SPEC_OK)
-		status = spec_writer_finish(writer, error);
-	spec_packer_close(packer);
-	spec_writer_close(writer);
-	free(value);
+		status = spec_image_save(image, &stream, settings, overflows, error);
+	free(chart.value);
 	return status;
 }
 

@@ -3,7 +3,6 @@
 #define SPEC_IMAGE_PATCHES_H
 
 #include "base/error.h"
-#include "base/output.h"
 #include "image/image.h"
 #include "image/reader.h"
 #include "image/settings.h"
@@ -34,11 +33,14 @@ enum spec_status spec_patches_image(struct spec_image *image,
 /* How many patches the curves make: one for each column. */
 size_t spec_patches_count(const struct spec_curve *curve, size_t curves);
 
-/* Writes the chart: each column of each curve at the grid's wavelengths, by rows. */
+/*
+ * Writes the chart: each column of each curve at the grid's wavelengths, by rows. Output
+ * and *overflows as spec_image_save's.
+ */
 enum spec_status spec_patches_write(const struct spec_image *image,
 	const struct spec_curve *curve, size_t curves,
-	const struct spec_patches_setup *setup, struct spec_output *output,
-	const struct spec_settings *settings, struct spec_error *error);
+	const struct spec_patches_setup *setup, const struct spec_settings *settings,
+	unsigned long long *overflows, struct spec_error *error);
 
 /*
  * Every pixel of an image as a column of one curve, named x<X>y<Y> by its place in

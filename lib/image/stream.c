@@ -50,6 +50,8 @@ choose_block(const struct spec_stream *stream)
 	long long chunk = 1, lines;
 	size_t bytes = 1;
 
+	if (stream->readers == 0)
+		return at_most(spec_writer_chunk_lines(stream->writer), stream->lines);
 	for (int i = 0; i < stream->readers; i++) {
 		chunk = common_multiple(chunk, spec_reader_chunk_lines(stream->reader[i]));
 		bytes += spec_reader_line_bytes(stream->reader[i]);
@@ -68,10 +70,12 @@ static int
 lead_lines(const struct run *run)
 {
 	const struct spec_stream *stream = run->stream;
-	const struct spec_image *image = spec_reader_image(stream->reader[0]);
-	int chunk = spec_reader_chunk_lines(stream->reader[0]);
-	int into = (stream->first_line - image->data.y0) % chunk;
+	int chunk, into;
 
+	if (stream->readers == 0)
+		return 0;
+	chunk = spec_reader_chunk_lines(stream->reader[0]);
+	into = (stream->first_line - spec_reader_image(stream->reader[0])->data.y0) % chunk;
 	return into / stream->lines_in % run->block_lines;
 }
 
@@ -216,19 +220,22 @@ static enum spec_status
 fit_memory(struct run *run, struct spec_error *error)
 {
 	const struct spec_stream *stream = run->stream;
+	const struct spec_settings *settings = run->settings;
 	long long lines = (long long)run->block_lines * stream->lines_in, each = 0;
-	long long limit = run->settings->limits.memory;
+	long long limit = settings->limits.memory;
 
 	for (int i = 0; i < stream->readers; i++)
 		each += lines * (long long)spec_reader_line_bytes(stream->reader[i]) *
 			BLOCK_COPIES;
 	each += (long long)stream->payload_bytes * run->block_lines;
+	each += (long long)stream->scratch_bytes;
 	if (each > limit)
 		return spec_error_set(error, SPEC_ERANGE,
 			"%s: %lld lines at a time need %lld bytes, more than the limit of "
-			"%lld "
-			"(--limit memory=BYTES)",
-			spec_reader_name(stream->reader[0]), lines, each, limit);
+			"%lld (--limit memory=BYTES)",
+			stream->readers > 0 ? spec_reader_name(stream->reader[0])
+					    : settings->output,
+			lines, each, limit);
 	while (run->threads > 1 && each * run->threads > limit)
 		run->threads--;
 	return SPEC_OK;

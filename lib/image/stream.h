@@ -25,7 +25,7 @@ struct spec_stream_worker {
 struct spec_stream {
 	struct spec_reader *reader[SPEC_STREAM_READERS];
 	const unsigned char *wanted[SPEC_STREAM_READERS]; /* as spec_decoder_open's */
-	int readers;
+	int readers; /* 0: the kernel makes lines of nothing, and there is a writer */
 	struct spec_writer *writer; /* or null */
 	int first_line;             /* of the input that line 0 of the output needs */
 	int lines;                  /* of the output */

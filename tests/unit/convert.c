@@ -15,6 +15,7 @@
 #include "base/output.h"
 #include "colour/space.h"
 #include "image/convert.h"
+#include "image/writer.h"
 #include "image/rgb.h"
 #include "spectrum/product.h"
 
@@ -153,19 +154,14 @@ plan(struct fixture *fixture, const struct spec_convert_setup *setup,
 static void
 convert(struct fixture *fixture, const struct spec_convert_setup *setup)
 {
-	struct spec_output output;
-	struct spec_writer *writer;
+	unsigned long long overflows;
 	struct spec_error error;
 
 	check(plan(fixture, setup, &error), &error);
-	check(spec_output_open(&output, fixture->output, &error), &error);
-	check(spec_writer_open(&writer, &fixture->convert.image, &output, -1, &error),
+	fixture->settings.output = fixture->output;
+	check(spec_convert_run(&fixture->convert, fixture->reader, &fixture->settings,
+		      &overflows, &error),
 		&error);
-	check(spec_convert_run(&fixture->convert, fixture->reader, writer,
-		      &fixture->settings, &error),
-		&error);
-	spec_writer_close(writer);
-	check(spec_output_commit(&output, &error), &error);
 	check(spec_reader_open(
 		      &fixture->result, fixture->output, &fixture->settings, &error),
 		&error);
