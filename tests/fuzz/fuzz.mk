@@ -5,14 +5,15 @@
 
 FUZZCC = clang
 FUZZ_SECONDS = 600
-FUZZERS = reader spd names
+FUZZERS = reader spd names recipe
 # clang 14 does not know the name of F16C.
 FUZZFLAGS = -std=c11 -g -O1 -Wall -Wextra -fno-omit-frame-pointer -pthread \
 	-fsanitize=address,undefined -fno-sanitize-recover=all \
 	'-D__builtin_cpu_supports(name)=1'
 FUZZSHARE_reader = 80
-FUZZSHARE_spd = 15
+FUZZSHARE_spd = 10
 FUZZSHARE_names = 5
+FUZZSHARE_recipe = 5
 
 FUZZOBJECTS = $(LIBSOURCES:%.c=$(BUILD)/fuzz/obj/%.o)
 FUZZPROGRAMS = $(FUZZERS:%=$(BUILD)/fuzz/fuzz-%)
