@@ -1,0 +1,452 @@
+/* specdisc - diffraction at discs and gratings, on light layers or as a chart; see specdisc(1). */
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "base/number.h"
+#include "base/output.h"
+#include "cli/options.h"
+#include "cli/progress.h"
+#include "image/diffract.h"
+#include "image/discchart.h"
+#include "optics/orders.h"
+
+#define MOST_ID 4294967295LL
+#define FARTHEST_M 1e9
+
+static const struct cli_option options[] = {
+	{'p', "preset", "cd|dvd|bluray|vinyl", "the disc (default: cd)"},
+	{0, "track", "LENGTH", "from track to track, in place of the preset's"},
+	{0, "pit", "LENGTH", "mean distance from pit to pit along a track"},
+	{'m', "mask", "ID",
+		"this disc is for surfaces of this id; repeat --preset for others"},
+	{0, "model", "composite|orders",
+		"Vangorp & Yskout's, made to look like photographs,\n"
+		"or the grating's orders by scalar diffraction\n(default: composite)"},
+	{0, "spread", "ANGLE",
+		"of an order about its direction, a standard deviation\n"
+		"(default: 0.5deg; model orders)"},
+	{0, "centre", "X,Y,Z", "tracks are circles around it, in place of Tan [m]"},
+	{0, "axis", "X,Y,Z", "... and around this direction (default: 0,0,1)"},
+	{'k', "keep", NULL, "leave the layers in the image"},
+	{0, "orders", NULL, "print the directions of the orders, and read no image"},
+	{0, "chart", "AXES",
+		"make a chart, and read no image: one or two of 'angle A..B,\n"
+		"lamp A..B, azimuth A..B', to the right and downwards"},
+	{0, "size", "WxH", "of the chart in pixels (default: 480x270)"},
+	{'a', "angle", "ANGLE", "of the lamp, for --orders and --chart (default: 0deg)"},
+	{0, "azimuth", "ANGLE",
+		"of lamp and eye, 0 across the tracks, 90 along them (default: 0deg)"},
+	{'g', "grid", "LO:HI:STEP",
+		"wavelengths of --orders and --chart [nm]\n(default: 380:780:5)"},
+	{0},
+};
+
+static const struct cli_program program = {
+	.name = "specdisc",
+	.arguments = "[OPTION]... [FILE]",
+	.summary =
+		"Put the colours of a compact disc, or another grating, on the surface that an\n"
+		"image's lamp layers light, or chart them.",
+	.options = options,
+	.writes_images = 1,
+};
+
+/* A disc as the options give it. */
+struct choice {
+	const char *preset, *track, *pit, *mask;
+};
+
+struct job {
+	const char *input;
+	struct choice *choice;
+	size_t choices, choice_room;
+	struct spec_diffract_setup setup;
+	const char *axes, *grid;
+	double angle_deg, azimuth_deg, spread_deg;
+	int orders, width, height;
+	int has_angle, has_size, has_axis, has_spread;
+	unsigned long long overflows;
+	struct spec_settings settings;
+};
+
+/* An option of a disc: one that the last disc has already begins another disc. */
+static enum spec_status
+take_choice(struct job *job, size_t offset, const char *value, struct spec_error *error)
+{
+	void *list = job->choice;
+	const char **field;
+	enum spec_status status;
+
+	field = (const char **)(void *)((char *)&job->choice[job->choices - 1] + offset);
+	if (!*field) {
+		*field = value;
+		return SPEC_OK;
+	}
+	status = spec_memory_grow(&list, &job->choice_room, job->choices + 1,
+		sizeof *job->choice, "discs", error);
+	job->choice = list;
+	if (status != SPEC_OK)
+		return status;
+	field = (const char **)(void *)((char *)&job->choice[job->choices++] + offset);
+	*field = value;
+	return SPEC_OK;
+}
+
+static enum spec_status
+take_vector(const char *text, const char *what, double vector[3], struct spec_error *error)
+{
+	for (size_t i = 0; i < 3; i++) {
+		size_t length = strcspn(text, ",");
+		char part[64];
+		enum spec_status status;
+
+		if ((text[length] == ',') != (i < 2) || length >= sizeof part)
+			return spec_error_set(error, SPEC_EUSAGE, "%s is not X,Y,Z", what);
+		memcpy(part, text, length);
+		part[length] = '\0';
+		status = spec_number_parse(
+			part, -FARTHEST_M, FARTHEST_M, what, &vector[i], error);
+		if (status != SPEC_OK)
+			return status;
+		text += length + (i < 2);
+	}
+	return SPEC_OK;
+}
+
+static enum spec_status
+take_model(struct job *job, const char *value, struct spec_error *error)
+{
+	int orders = strcmp(value, "orders") == 0;
+
+	if (!orders && strcmp(value, "composite") != 0)
+		return spec_error_set(
+			error, SPEC_EUSAGE, "'%s' is not composite or orders", value);
+	job->setup.model = orders ? spec_disc_orders : spec_disc_composite;
+	return SPEC_OK;
+}
+
+static enum spec_status
+take_chart_option(struct job *job, const char *name, const char *value, int *known,
+	struct spec_error *error)
+{
+	*known = 1;
+	if (strcmp(name, "chart") == 0) {
+		job->axes = value;
+	} else if (strcmp(name, "orders") == 0) {
+		job->orders = 1;
+	} else if (strcmp(name, "size") == 0) {
+		job->has_size = 1;
+		return spec_number_parse_size(value, SPEC_CHART_LARGEST, "the size",
+			&job->width, &job->height, error);
+	} else if (strcmp(name, "angle") == 0) {
+		job->has_angle = 1;
+		return spec_number_parse_angle(
+			value, 0, 90, "the angle", &job->angle_deg, error);
+	} else if (strcmp(name, "azimuth") == 0) {
+		job->has_angle = 1;
+		return spec_number_parse_angle(
+			value, -180, 180, "the azimuth", &job->azimuth_deg, error);
+	} else if (strcmp(name, "grid") == 0) {
+		job->grid = value;
+	} else {
+		*known = 0;
+	}
+	return SPEC_OK;
+}
+
+static enum spec_status
+take_surface_option(struct job *job, const char *name, const char *value, int *known,
+	struct spec_error *error)
+{
+	*known = 1;
+	if (strcmp(name, "preset") == 0)
+		return take_choice(job, offsetof(struct choice, preset), value, error);
+	if (strcmp(name, "track") == 0)
+		return take_choice(job, offsetof(struct choice, track), value, error);
+	if (strcmp(name, "pit") == 0)
+		return take_choice(job, offsetof(struct choice, pit), value, error);
+	if (strcmp(name, "mask") == 0)
+		return take_choice(job, offsetof(struct choice, mask), value, error);
+	if (strcmp(name, "model") == 0)
+		return take_model(job, value, error);
+	if (strcmp(name, "centre") == 0) {
+		job->setup.has_centre = 1;
+		return take_vector(value, "the centre", job->setup.centre, error);
+	}
+	if (strcmp(name, "axis") == 0) {
+		job->has_axis = 1;
+		return take_vector(value, "the axis", job->setup.axis, error);
+	}
+	if (strcmp(name, "spread") == 0) {
+		job->has_spread = 1;
+		return spec_number_parse_angle(
+			value, 1e-4, 45, "the spread", &job->spread_deg, error);
+	}
+	*known = 0;
+	return SPEC_OK;
+}
+
+static enum spec_status
+take_option(struct job *job, const char *name, const char *value, struct spec_error *error)
+{
+	int known;
+	enum spec_status status = take_chart_option(job, name, value, &known, error);
+
+	if (!known)
+		status = take_surface_option(job, name, value, &known, error);
+	if (known)
+		return status;
+	if (strcmp(name, "keep") != 0)
+		return spec_settings_take(&job->settings, name, value, &known, error);
+	job->setup.keep = 1;
+	return SPEC_OK;
+}
+
+/* What goes together, and what does not. */
+static void
+check_options(const struct cli *cli, const struct job *job)
+{
+	const struct spec_diffract_setup *setup = &job->setup;
+	const double *axis = setup->axis;
+	int alone = job->orders || job->axes;
+
+	if (job->orders && job->axes)
+		cli_usage(cli, "--orders and --chart exclude each other");
+	if (alone && job->input)
+		cli_usage(cli, "--orders and --chart read no image: '%s'", job->input);
+	if (alone && (job->choices > 1 || job->choice[0].mask || setup->keep ||
+			     setup->has_centre))
+		cli_usage(cli, "--orders and --chart take one disc, and neither --mask, "
+			       "--keep nor --centre");
+	if (!alone && (job->has_angle || job->grid))
+		cli_usage(
+			cli, "--angle, --azimuth and --grid are for --orders and --chart");
+	if (!job->axes && job->has_size)
+		cli_usage(cli, "--size is for --chart");
+	if (job->has_axis && !setup->has_centre)
+		cli_usage(cli, "--axis needs a --centre");
+	if (axis[0] == 0 && axis[1] == 0 && axis[2] == 0)
+		cli_usage(cli, "the axis is 0,0,0");
+	if (job->has_spread && setup->model != spec_disc_orders)
+		cli_usage(cli, "--spread is for --model orders");
+}
+
+static void
+parse(struct cli *cli, struct job *job, struct spec_error *error)
+{
+	void *list = NULL;
+
+	spec_settings_init(&job->settings);
+	cli_check(cli,
+		spec_memory_grow(
+			&list, &job->choice_room, 1, sizeof *job->choice, "discs", error),
+		error);
+	job->choice = list;
+	job->choices = 1;
+	while (cli_next(cli)) {
+		if (cli->name)
+			cli_check(
+				cli, take_option(job, cli->name, cli->value, error), error);
+		else if (job->input)
+			cli_usage(cli, "one image at a time: '%s' and '%s'", job->input,
+				cli->value);
+		else
+			job->input = cli->value;
+	}
+	check_options(cli, job);
+}
+
+static enum spec_status
+make_disc(const struct job *job, const struct choice *choice, struct spec_disc *disc,
+	struct spec_error *error)
+{
+	const struct spec_disc *preset =
+		spec_disc_find(choice->preset ? choice->preset : "cd", error);
+	enum spec_status status = preset ? SPEC_OK : SPEC_EUSAGE;
+
+	if (status != SPEC_OK)
+		return status;
+	*disc = *preset;
+	if (choice->track)
+		status = spec_number_parse_length(
+			choice->track, "the track", &disc->track_nm, error);
+	if (status == SPEC_OK && choice->pit)
+		status = spec_number_parse_length(
+			choice->pit, "the pit", &disc->pit_nm, error);
+	if (disc->pit_width_nm > disc->track_nm)
+		disc->pit_width_nm *= disc->track_nm / preset->track_nm;
+	disc->lobe_width = job->has_spread ? job->spread_deg * 3.14159265358979323846 / 180
+					   : disc->lobe_width;
+	return status;
+}
+
+static enum spec_status
+print_orders(const struct job *job, const struct spec_disc *disc,
+	const struct spec_grid *grid, struct spec_error *error)
+{
+	char *text = NULL;
+	size_t size = 0;
+	enum spec_status status = spec_orders_text(disc, job->angle_deg, job->azimuth_deg,
+		grid->wavelength_nm, grid->count, &text, &size, error);
+
+	if (status == SPEC_OK)
+		status = spec_output_save(job->settings.output, text, size, error);
+	free(text);
+	return status;
+}
+
+static enum spec_status
+draw_chart(struct job *job, const struct spec_disc *disc, const struct spec_grid *grid,
+	int argc, char **argv, struct spec_error *error)
+{
+	struct spec_disc_chart state = {
+		disc, job->setup.model, {grid->count, grid->wavelength_nm, NULL}};
+	struct spec_chart chart = {.width = job->width,
+		.height = job->height,
+		.grid = grid,
+		.quantity = "reflectance factor",
+		.half = job->settings.half,
+		.evaluate = spec_disc_chart_evaluate,
+		.state = &state};
+	struct spec_image image = {0};
+	enum spec_status status;
+
+	spec_disc_chart_variables(&chart, job->angle_deg, job->azimuth_deg);
+	status = spec_chart_parse(&chart, job->axes, error);
+	if (status == SPEC_OK)
+		status = spec_chart_image(&chart, &image, error);
+	if (status == SPEC_OK && job->settings.history)
+		status = spec_image_add_history(&image, argc, argv, error);
+	if (status == SPEC_OK)
+		status = spec_chart_run(
+			&chart, &image, &job->settings, &job->overflows, error);
+	spec_image_clear(&image);
+	return status;
+}
+
+/* --orders and --chart. */
+static enum spec_status
+show_disc(struct job *job, int argc, char **argv, struct spec_error *error)
+{
+	struct spec_grid grid = {0};
+	struct spec_disc disc;
+	enum spec_status status = make_disc(job, &job->choice[0], &disc, error);
+
+	if (status == SPEC_OK)
+		status = spec_grid_parse(job->grid ? job->grid : "380:780:5", &grid, error);
+	if (status == SPEC_OK)
+		status = job->orders ? print_orders(job, &disc, &grid, error)
+				     : draw_chart(job, &disc, &grid, argc, argv, error);
+	spec_grid_free(&grid);
+	return status;
+}
+
+static enum spec_status
+take_surface(const struct job *job, size_t number, struct spec_diffract_surface *surface,
+	struct spec_error *error)
+{
+	const char *mask = job->choice[number].mask;
+	long long id = 0;
+	enum spec_status status =
+		make_disc(job, &job->choice[number], &surface[number].disc, error);
+
+	surface[number].any = !mask;
+	if (status == SPEC_OK && mask)
+		status = spec_number_parse_whole(mask, 0, MOST_ID, "the id", &id, error);
+	surface[number].id = (uint32_t)id;
+	for (size_t i = 0; i < number && status == SPEC_OK; i++) {
+		if (surface[i].any == surface[number].any &&
+			surface[i].id == surface[number].id)
+			status = spec_error_set(error, SPEC_EUSAGE,
+				mask ? "two discs are for the id %s"
+				     : "two discs are for all surfaces (--mask ID)%s",
+				mask ? mask : "");
+	}
+	return status;
+}
+
+static enum spec_status
+light_image(struct job *job, struct spec_reader *reader, long long *bare, int argc,
+	char **argv, struct spec_error *error)
+{
+	struct spec_diffract diffract;
+	enum spec_status status = spec_diffract_plan(&diffract, spec_reader_image(reader),
+		&job->setup, spec_reader_name(reader), error);
+
+	if (status == SPEC_OK && job->settings.history)
+		status = spec_image_add_history(&diffract.relight.image, argc, argv, error);
+	if (status == SPEC_OK)
+		status = spec_diffract_run(
+			&diffract, reader, &job->settings, &job->overflows, error);
+	*bare = atomic_load(&diffract.bare);
+	spec_diffract_free(&diffract);
+	return status;
+}
+
+static enum spec_status
+disc_image(
+	struct job *job, long long *bare, int argc, char **argv, struct spec_error *error)
+{
+	struct spec_diffract_surface *surface =
+		spec_memory_new(job->choices, sizeof *surface, "discs", error);
+	struct spec_reader *reader = NULL;
+	enum spec_status status = surface ? SPEC_OK : SPEC_ENOMEM;
+
+	for (size_t i = 0; i < job->choices && status == SPEC_OK; i++)
+		status = take_surface(job, i, surface, error);
+	job->setup.surface = surface;
+	job->setup.surfaces = job->choices;
+	job->setup.half = job->settings.half;
+	if (status == SPEC_OK)
+		status = spec_reader_open(
+			&reader, job->input ? job->input : "-", &job->settings, error);
+	if (status == SPEC_OK)
+		status = light_image(job, reader, bare, argc, argv, error);
+	free(surface);
+	spec_reader_close(reader);
+	return status;
+}
+
+static void
+warn(const struct cli *cli, const struct job *job, long long bare)
+{
+	if (job->settings.quiet)
+		return;
+	if (bare > 0)
+		cli_warn(cli, "no disc is for the id of %lld %s: left out", bare,
+			bare == 1 ? "pixel" : "pixels");
+	if (job->overflows > 0)
+		cli_warn(cli,
+			"%s: %llu samples are too large for 16 bits and became infinite",
+			job->settings.output, job->overflows);
+}
+
+int
+main(int argc, char **argv)
+{
+	struct job job = {.width = 480,
+		.height = 270,
+		.setup = {.model = spec_disc_composite, .axis = {0, 0, 1}}};
+	struct spec_error error = {0};
+	struct cli_progress progress;
+	enum spec_status status;
+	long long bare = 0;
+	struct cli cli;
+
+	cli_start(&cli, &program, argc, argv);
+	parse(&cli, &job, &error);
+	cli_progress_start(&progress, "lines", job.settings.progress, job.settings.quiet);
+	job.settings.show = cli_progress_show;
+	job.settings.show_state = &progress;
+
+	status = job.orders || job.axes ? show_disc(&job, argc, argv, &error)
+					: disc_image(&job, &bare, argc, argv, &error);
+	cli_progress_end(&progress);
+	cli_check(&cli, status, &error);
+	warn(&cli, &job, bare);
+	free(job.choice);
+	return 0;
+}

@@ -1,0 +1,429 @@
+/* specfilm - interference in thin films, on light layers or as a chart; see specfilm(1). */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "base/number.h"
+#include "cli/options.h"
+#include "cli/progress.h"
+#include "image/filmchart.h"
+#include "image/fold.h"
+#include "spectrum/spd.h"
+
+#define MOST_ID 4294967295LL
+#define RADIANS_PER_DEGREE (3.14159265358979323846 / 180)
+
+static const struct cli_option options[] = {
+	{'s', "stack", "STACK",
+		"ambient | layer thickness | ... | substrate, such as\n"
+		"'air | 1.33 500nm | air' or 'air | (TiO2 60nm | SiO2 95nm)^8 | N-BK7'"},
+	{'t', "thickness", "THICKNESS",
+		"of the only layer, or of the one with * for its thickness:\n"
+		"500nm, or 'gravity 530nm..730nm [AXIS]'"},
+	{'m', "mask", "ID",
+		"this stack is for surfaces of this id; repeat --stack for others"},
+	{0, "polarisation", "u|s|p", "of all light (default: u, unpolarised)"},
+	{'k', "keep", NULL, "leave the layers in the image"},
+	{0, "spectrum", NULL, "print R, T and A over wavelength, and read no image"},
+	{0, "chart", "AXES",
+		"make a chart, and read no image: one or two of\n"
+		"'thickness A..B, angle A..B', to the right and downwards"},
+	{0, "of", "SHARE",
+		"a chart of: reflectance transmittance absorptance\n(default: reflectance)"},
+	{0, "size", "WxH", "of the chart in pixels (default: 480x270)"},
+	{'a', "angle", "ANGLE", "of incidence, for --spectrum and --chart (default: 0deg)"},
+	{'g', "grid", "LO:HI:STEP",
+		"wavelengths of --spectrum and --chart [nm]\n(default: 380:780:5)"},
+	{0, "extrapolate", "refuse|constant",
+		"indices outside their data (default: refuse)"},
+	{0},
+};
+
+static const struct cli_program program = {
+	.name = "specfilm",
+	.arguments = "--stack STACK [OPTION]... [FILE]",
+	.summary =
+		"Put thin films on the surfaces that an image's light layers show, or chart what\n"
+		"films reflect.",
+	.options = options,
+	.writes_images = 1,
+};
+
+/* A stack as the options give it. */
+struct film {
+	const char *stack, *thickness, *mask;
+};
+
+struct job {
+	const char *input;
+	struct film *film;
+	size_t films, film_room;
+	enum spec_polarisation polarisation;
+	enum spec_film_share share;
+	enum spec_extrapolate extrapolate;
+	const char *axes, *grid;
+	double angle_deg;
+	int keep, spectrum, width, height;
+	int has_angle, has_size, has_share;
+	unsigned long long overflows;
+	struct spec_settings settings;
+};
+
+/* An option of a film: one that the last film has already begins another film. */
+static enum spec_status
+take_film(struct job *job, size_t offset, const char *value, struct spec_error *error)
+{
+	void *list = job->film;
+	const char **field;
+	enum spec_status status;
+
+	if (job->films > 0) {
+		field = (const char **)(void *)((char *)&job->film[job->films - 1] +
+						offset);
+		if (!*field) {
+			*field = value;
+			return SPEC_OK;
+		}
+	}
+	status = spec_memory_grow(
+		&list, &job->film_room, job->films + 1, sizeof *job->film, "stacks", error);
+	job->film = list;
+	if (status != SPEC_OK)
+		return status;
+	field = (const char **)(void *)((char *)&job->film[job->films++] + offset);
+	*field = value;
+	return SPEC_OK;
+}
+
+static enum spec_status
+take_chart_option(struct job *job, const char *name, const char *value, int *known,
+	struct spec_error *error)
+{
+	*known = 1;
+	if (strcmp(name, "chart") == 0) {
+		job->axes = value;
+	} else if (strcmp(name, "of") == 0) {
+		job->has_share = 1;
+		return spec_film_share_parse(value, &job->share, error);
+	} else if (strcmp(name, "size") == 0) {
+		job->has_size = 1;
+		return spec_number_parse_size(value, SPEC_CHART_LARGEST, "the size",
+			&job->width, &job->height, error);
+	} else if (strcmp(name, "angle") == 0) {
+		job->has_angle = 1;
+		return spec_number_parse_angle(
+			value, 0, 90, "the angle", &job->angle_deg, error);
+	} else if (strcmp(name, "grid") == 0) {
+		job->grid = value;
+	} else {
+		*known = 0;
+	}
+	return SPEC_OK;
+}
+
+static enum spec_status
+take_extrapolate(struct job *job, const char *value, struct spec_error *error)
+{
+	int constant = strcmp(value, "constant") == 0;
+
+	if (!constant && strcmp(value, "refuse") != 0)
+		return spec_error_set(
+			error, SPEC_EUSAGE, "'%s' is not refuse or constant", value);
+	job->extrapolate = constant ? SPEC_EXTRAPOLATE_CONSTANT : SPEC_EXTRAPOLATE_REFUSE;
+	return SPEC_OK;
+}
+
+static enum spec_status
+take_option(struct job *job, const char *name, const char *value, struct spec_error *error)
+{
+	int known;
+	enum spec_status status = take_chart_option(job, name, value, &known, error);
+
+	if (known)
+		return status;
+	if (strcmp(name, "stack") == 0)
+		return take_film(job, offsetof(struct film, stack), value, error);
+	if (strcmp(name, "thickness") == 0)
+		return take_film(job, offsetof(struct film, thickness), value, error);
+	if (strcmp(name, "mask") == 0)
+		return take_film(job, offsetof(struct film, mask), value, error);
+	if (strcmp(name, "polarisation") == 0)
+		return spec_polarisation_parse(value, &job->polarisation, error);
+	if (strcmp(name, "extrapolate") == 0)
+		return take_extrapolate(job, value, error);
+	if (strcmp(name, "keep") == 0)
+		job->keep = 1;
+	else if (strcmp(name, "spectrum") == 0)
+		job->spectrum = 1;
+	else
+		return spec_settings_take(&job->settings, name, value, &known, error);
+	return SPEC_OK;
+}
+
+/* What goes together, and what does not. */
+static void
+check_options(const struct cli *cli, const struct job *job)
+{
+	int alone = job->spectrum || job->axes;
+
+	for (size_t i = 0; i < job->films; i++) {
+		if (!job->film[i].stack)
+			cli_usage(cli, "--thickness and --mask need a --stack");
+	}
+	if (job->films == 0)
+		cli_usage(cli, "there is no --stack");
+	if (job->spectrum && job->axes)
+		cli_usage(cli, "--spectrum and --chart exclude each other");
+	if (alone && job->input)
+		cli_usage(cli, "--spectrum and --chart read no image: '%s'", job->input);
+	if (alone && (job->films > 1 || job->film[0].mask || job->keep))
+		cli_usage(cli, "--spectrum and --chart take one --stack, and neither "
+			       "--mask nor --keep");
+	if (!alone && (job->has_angle || job->grid))
+		cli_usage(cli, "--angle and --grid are for --spectrum and --chart");
+	if (!job->axes && (job->has_size || job->has_share))
+		cli_usage(cli, "--size and --of are for --chart");
+}
+
+static void
+parse(struct cli *cli, struct job *job, struct spec_error *error)
+{
+	spec_settings_init(&job->settings);
+	while (cli_next(cli)) {
+		if (cli->name)
+			cli_check(
+				cli, take_option(job, cli->name, cli->value, error), error);
+		else if (job->input)
+			cli_usage(cli, "one image at a time: '%s' and '%s'", job->input,
+				cli->value);
+		else
+			job->input = cli->value;
+	}
+	check_options(cli, job);
+}
+
+/* The coating of a film at wavelengths. thickness: in place of the film's own, or null. */
+static enum spec_status
+make_coating(const struct job *job, const struct film *film,
+	const struct spec_thickness *thickness, const double *wavelength_nm, size_t count,
+	struct spec_coating *coating, struct spec_error *error)
+{
+	struct spec_recipe recipe = {0};
+	struct spec_thickness own;
+	enum spec_status status = spec_recipe_parse(film->stack, &recipe, error);
+
+	if (status == SPEC_OK && film->thickness && !thickness) {
+		status = spec_thickness_parse(film->thickness, &own, error);
+		thickness = &own;
+	}
+	if (status == SPEC_OK)
+		status = spec_coating_make(coating, &recipe, thickness, wavelength_nm,
+			count, job->extrapolate, error);
+	spec_recipe_free(&recipe);
+	return status;
+}
+
+static enum spec_status
+refuse_gravity(const struct spec_coating *coating, struct spec_error *error)
+{
+	if (coating->thickness.kind == SPEC_THICKNESS_CONSTANT)
+		return SPEC_OK;
+	return spec_error_set(error, SPEC_EUSAGE,
+		"--spectrum and --chart need one thickness, not a course of it");
+}
+
+static enum spec_status
+print_spectrum(
+	const struct job *job, const struct spec_coating *coating, struct spec_error *error)
+{
+	static const char *const light[] = {"unpolarised", "s", "p"};
+	struct spec_curve curve = {0};
+	char title[256];
+	enum spec_status status = spec_coating_curve(coating,
+		cos(job->angle_deg * RADIANS_PER_DEGREE), job->polarisation, &curve, error);
+
+	snprintf(title, sizeof title, "%s, %g deg, %s light", job->film[0].stack,
+		job->angle_deg, light[job->polarisation]);
+	spec_error_plain(title);
+	if (status == SPEC_OK)
+		status = spec_curve_set_text(&curve.title, title, error);
+	if (status == SPEC_OK)
+		status = spec_spd_save(job->settings.output, &curve, error);
+	spec_curve_free(&curve);
+	return status;
+}
+
+static enum spec_status
+draw_chart(struct job *job, struct spec_chart *chart, const struct spec_coating *coating,
+	int argc, char **argv, struct spec_error *error)
+{
+	struct spec_film_chart film = {coating, job->polarisation, job->share};
+	struct spec_image image;
+	enum spec_status status;
+
+	chart->width = job->width;
+	chart->height = job->height;
+	chart->quantity = spec_film_share_name(job->share);
+	chart->half = job->settings.half;
+	chart->evaluate = spec_film_chart_evaluate;
+	chart->state = &film;
+	status = spec_chart_image(chart, &image, error);
+	if (status == SPEC_OK && job->settings.history)
+		status = spec_image_add_history(&image, argc, argv, error);
+	if (status == SPEC_OK)
+		status = spec_chart_run(
+			chart, &image, &job->settings, &job->overflows, error);
+	spec_image_clear(&image);
+	return status;
+}
+
+/* --spectrum and --chart. */
+static enum spec_status
+show_film(struct job *job, int argc, char **argv, struct spec_error *error)
+{
+	struct spec_thickness any = {.kind = SPEC_THICKNESS_CONSTANT};
+	struct spec_chart chart = {0};
+	struct spec_coating coating = {0};
+	struct spec_grid grid = {0};
+	int over_thickness;
+	enum spec_status status =
+		spec_grid_parse(job->grid ? job->grid : "380:780:5", &grid, error);
+
+	spec_film_chart_variables(&chart, 0, job->angle_deg);
+	if (status == SPEC_OK && job->axes)
+		status = spec_chart_parse(&chart, job->axes, error);
+	over_thickness =
+		job->axes && (chart.axis[0].variable == SPEC_FILM_THICKNESS ||
+				     chart.axis[1].variable == SPEC_FILM_THICKNESS);
+	if (status == SPEC_OK)
+		status = make_coating(job, &job->film[0], over_thickness ? &any : NULL,
+			grid.wavelength_nm, grid.count, &coating, error);
+	if (status == SPEC_OK)
+		status = refuse_gravity(&coating, error);
+	chart.grid = &grid;
+	chart.variable[SPEC_FILM_THICKNESS].value = coating.thickness.top_nm;
+	if (status == SPEC_OK)
+		status = job->spectrum
+				 ? print_spectrum(job, &coating, error)
+				 : draw_chart(job, &chart, &coating, argc, argv, error);
+	spec_coating_free(&coating);
+	spec_grid_free(&grid);
+	return status;
+}
+
+static enum spec_status
+take_surface(const struct job *job, size_t number, struct spec_fold_surface *surface,
+	struct spec_error *error)
+{
+	const char *mask = job->film[number].mask;
+	long long id = 0;
+	enum spec_status status = SPEC_OK;
+
+	surface[number].any = !mask;
+	if (mask)
+		status = spec_number_parse_whole(mask, 0, MOST_ID, "the id", &id, error);
+	surface[number].id = (uint32_t)id;
+	for (size_t i = 0; i < number && status == SPEC_OK; i++) {
+		if (surface[i].any == surface[number].any &&
+			surface[i].id == surface[number].id)
+			status = spec_error_set(error, SPEC_EUSAGE,
+				mask ? "two stacks are for the id %s"
+				     : "two stacks are for all surfaces (--mask ID)%s",
+				mask ? mask : "");
+	}
+	return status;
+}
+
+static enum spec_status
+fold_image(struct job *job, struct spec_reader *reader, struct spec_fold_surface *surface,
+	long long *bare, int argc, char **argv, struct spec_error *error)
+{
+	struct spec_fold_setup setup = {
+		surface, job->films, job->polarisation, job->keep, job->settings.half};
+	struct spec_fold fold;
+	enum spec_status status = spec_fold_plan(
+		&fold, spec_reader_image(reader), &setup, spec_reader_name(reader), error);
+
+	if (status == SPEC_OK && job->settings.history)
+		status = spec_image_add_history(&fold.relight.image, argc, argv, error);
+	if (status == SPEC_OK)
+		status = spec_fold_run(
+			&fold, reader, &job->settings, &job->overflows, error);
+	*bare = atomic_load(&fold.bare);
+	spec_fold_free(&fold);
+	return status;
+}
+
+static enum spec_status
+film_image(
+	struct job *job, long long *bare, int argc, char **argv, struct spec_error *error)
+{
+	struct spec_fold_surface *surface =
+		spec_memory_new(job->films, sizeof *surface, "stacks", error);
+	struct spec_coating *coating =
+		spec_memory_new(job->films, sizeof *coating, "stacks", error);
+	struct spec_reader *reader = NULL;
+	enum spec_status status = surface && coating ? SPEC_OK : SPEC_ENOMEM;
+
+	for (size_t i = 0; i < job->films && status == SPEC_OK; i++)
+		status = take_surface(job, i, surface, error);
+	if (status == SPEC_OK)
+		status = spec_reader_open(
+			&reader, job->input ? job->input : "-", &job->settings, error);
+	for (size_t i = 0; i < job->films && status == SPEC_OK; i++) {
+		const struct spec_image *image = spec_reader_image(reader);
+
+		surface[i].coating = &coating[i];
+		status = make_coating(job, &job->film[i], NULL, image->wavelength_nm,
+			image->bands, &coating[i], error);
+	}
+	if (status == SPEC_OK)
+		status = fold_image(job, reader, surface, bare, argc, argv, error);
+	for (size_t i = 0; coating && i < job->films; i++)
+		spec_coating_free(&coating[i]);
+	free(coating);
+	free(surface);
+	spec_reader_close(reader);
+	return status;
+}
+
+static void
+warn(const struct cli *cli, const struct job *job, long long bare)
+{
+	if (job->settings.quiet)
+		return;
+	if (bare > 0)
+		cli_warn(cli, "no stack is for the id of %lld %s: left out", bare,
+			bare == 1 ? "pixel" : "pixels");
+	if (job->overflows > 0)
+		cli_warn(cli,
+			"%s: %llu samples are too large for 16 bits and became infinite",
+			job->settings.output, job->overflows);
+}
+
+int
+main(int argc, char **argv)
+{
+	struct job job = {.width = 480, .height = 270};
+	struct spec_error error = {0};
+	struct cli_progress progress;
+	enum spec_status status;
+	long long bare = 0;
+	struct cli cli;
+
+	cli_start(&cli, &program, argc, argv);
+	parse(&cli, &job, &error);
+	cli_progress_start(&progress, "lines", job.settings.progress, job.settings.quiet);
+	job.settings.show = cli_progress_show;
+	job.settings.show_state = &progress;
+
+	status = job.spectrum || job.axes ? show_film(&job, argc, argv, &error)
+					  : film_image(&job, &bare, argc, argv, &error);
+	cli_progress_end(&progress);
+	cli_check(&cli, status, &error);
+	warn(&cli, &job, bare);
+	free(job.film);
+	return 0;
+}

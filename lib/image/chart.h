@@ -1,0 +1,66 @@
+/*
+ * Charts: images of reflectance or transmittance over one or two variables, the first to
+ * the right, the second downwards.
+ */
+#ifndef SPEC_IMAGE_CHART_H
+#define SPEC_IMAGE_CHART_H
+
+#include <stddef.h>
+
+#include "base/error.h"
+#include "image/image.h"
+#include "image/settings.h"
+#include "spectrum/grid.h"
+
+#define SPEC_CHART_RUN 256 /* pixels asked for at a time */
+#define SPEC_CHART_VARIABLES 4
+#define SPEC_CHART_LARGEST 32768 /* pixels of a side */
+
+enum spec_chart_unit { SPEC_CHART_NM, SPEC_CHART_DEGREES };
+
+struct spec_chart_variable {
+	const char *name;
+	enum spec_chart_unit unit;
+	double lowest, highest; /* that an axis may reach */
+	double value;           /* where it is on no axis */
+};
+
+struct spec_chart_axis {
+	size_t variable;    /* its number, or SPEC_CHART_VARIABLES: the axis is not used */
+	double first, last; /* at the middle of the first and of the last pixel */
+};
+
+struct spec_chart {
+	struct spec_chart_variable variable[SPEC_CHART_VARIABLES];
+	size_t variables;
+	struct spec_chart_axis axis[2];
+	int width, height;
+	const struct spec_grid *grid;
+	const char *quantity; /* of the bands, T */
+	int half;
+	/*
+	 * Fills value[band * SPEC_CHART_RUN + i] for pixels i = 0..count-1, whose variables
+	 * are at[variable][i].
+	 */
+	void (*evaluate)(
+		const void *state, const double *const *at, size_t count, double *value);
+	const void *state;
+};
+
+/*
+ * Reads "NAME A..B" or "NAME A..B, NAME A..B" into the axes. Errors, with a caret
+ * (SPEC_EUSAGE, SPEC_ERANGE): no such variable, no range, twice the same.
+ */
+enum spec_status spec_chart_parse(
+	struct spec_chart *chart, const char *text, struct spec_error *error);
+
+/* The header of the chart's image, indexed. */
+enum spec_status spec_chart_image(
+	const struct spec_chart *chart, struct spec_image *image, struct spec_error *error);
+
+/* Makes and writes it; as spec_image_save. */
+enum spec_status spec_chart_run(const struct spec_chart *chart,
+	const struct spec_image *image, const struct spec_settings *settings,
+	unsigned long long *overflows, struct spec_error *error);
+
+#endif
