@@ -11,7 +11,7 @@
 #include "cli/progress.h"
 #include "image/diffract.h"
 #include "image/discchart.h"
-#include "optics/orders.h"
+#include "optics/ordertable.h"
 
 #define MOST_ID 4294967295LL
 #define FARTHEST_M 1e9

@@ -1,6 +1,6 @@
 /* A disc's orders as text. */
-#ifndef SPEC_OPTICS_ORDERS_H
-#define SPEC_OPTICS_ORDERS_H
+#ifndef SPEC_OPTICS_ORDERTABLE_H
+#define SPEC_OPTICS_ORDERTABLE_H
 
 #include <stddef.h>
 
