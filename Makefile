@@ -86,7 +86,7 @@ help:
 	@echo 'make check      run every test; SAN=address,undefined runs them under sanitizers'
 	@echo 'make unit       run the unit tests alone'
 	@echo 'make bench      measure speed and memory beside peers; bench-deps installs the peers'
-	@echo 'make figures    make the pictures of the gallery'
+	@echo 'make figures    make the gallery, build/figures/index.html, and see what it checks'
 	@echo 'make lint-deps  install what make lint needs (apt-get)'
 	@echo 'make lint       clang-format, cppcheck, clang-tidy, shellcheck, mandoc'
 	@echo 'make fuzz       fuzz the readers for FUZZ_SECONDS seconds (default 600); fuzz-deps'
@@ -162,7 +162,7 @@ $(TESTHELPERS): $(BUILD)/tests/%: $(BUILD)/obj/tests/helper/%.o $(LIBRARY)
 # Running.
 
 check: all $(UNITTESTS) $(TESTHELPERS) $(BUILD)/tests/faults.so
-	@tests/check $(BUILD) unit rooms bats pages faults
+	@tests/check $(BUILD) unit rooms bats pages figures faults
 
 unit: $(UNITTESTS) $(PLUGIN) $(DATA)
 	@tests/check $(BUILD) unit
@@ -175,13 +175,14 @@ bench: all $(BENCHMARKS) $(TESTHELPERS)
 
 # A fragment adds its pictures to FIGURES and says how each is made.
 -include $(wildcard tests/figures/*.mk) tests/fuzz/fuzz.mk tests/faults/faults.mk
-figures: $(FIGURES)
+figures: all $(FIGURES)
+	@tests/figures/gallery $(BUILD) >$(BUILD)/figures/index.html
 
 # Looking at the source; each step stands alone, and lint is all of them.
 
 LINTS = lint-format lint-cppcheck lint-tidy lint-shell lint-man
 CODE = $(wildcard cmd/*.c lib/*/*.[ch] lib/*/*.cpp tests/*/*.[ch])
-SCRIPTS = $(shell grep -slE '^\#!.*(bash|bats)' .ci/* tests/* tests/*/*) $(wildcard tests/*/*.bash)
+SCRIPTS = $(shell grep -slE '^\#!.*(bash|bats)' .ci/* tests/* tests/*/*) $(wildcard tests/*/*.bash tests/figures/*.sh)
 
 lint: $(LINTS)
 

@@ -1,5 +1,6 @@
 #include "optics/coating.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -110,6 +111,15 @@ spec_coating_row(const struct spec_coating *coating, size_t wavelength, int behi
 		through[i] *= factor;
 }
 
+/* What is left of 1, but for what rounding leaves of it. */
+static double
+absorbed(double reflectance, double transmittance)
+{
+	double rest = 1 - reflectance - transmittance;
+
+	return fabs(rest) < 1e-14 ? 0 : rest;
+}
+
 enum spec_status
 spec_coating_curve(const struct spec_coating *coating, double cosine,
 	enum spec_polarisation polarisation, struct spec_curve *curve,
@@ -134,6 +144,7 @@ spec_coating_curve(const struct spec_coating *coating, double cosine,
 	spec_stack_spectrum(stack, cosine, coating->thickness.top_nm, polarisation,
 		curve->value, curve->value + count);
 	for (size_t i = 0; i < count; i++)
-		curve->value[2 * count + i] = 1 - curve->value[i] - curve->value[count + i];
+		curve->value[2 * count + i] =
+			absorbed(curve->value[i], curve->value[count + i]);
 	return SPEC_OK;
 }
