@@ -63,34 +63,6 @@ struct job {
 };
 
 static enum spec_status
-take_crop(struct spec_convert_setup *setup, const char *text, struct spec_error *error)
-{
-	int *corner[] = {
-		&setup->crop.x0, &setup->crop.y0, &setup->crop.x1, &setup->crop.y1};
-	char part[32];
-
-	setup->has_crop = 1;
-	for (size_t i = 0; i < 4; i++) {
-		size_t length = strcspn(text, ",");
-		long long value;
-		enum spec_status status;
-
-		snprintf(part, sizeof part, "%.*s",
-			(int)(length < sizeof part ? length : sizeof part - 1), text);
-		if ((text[length] == ',') != (i < 3))
-			return spec_error_set(
-				error, SPEC_EUSAGE, "the crop is not X0,Y0,X1,Y1");
-		status = spec_number_parse_whole(
-			part, 0, 1 << 30, "the crop", &value, error);
-		if (status != SPEC_OK)
-			return status;
-		*corner[i] = (int)value;
-		text += length + (i < 3);
-	}
-	return SPEC_OK;
-}
-
-static enum spec_status
 take_pixels(int *pixels, long long least, const char *what, const char *text,
 	struct spec_error *error)
 {
@@ -198,8 +170,10 @@ take_option(struct job *job, const char *name, const char *value, struct spec_er
 	}
 	if (strcmp(name, "extrapolate") == 0)
 		return take_extrapolate(job, value, error);
-	if (strcmp(name, "crop") == 0)
-		return take_crop(&job->setup, value, error);
+	if (strcmp(name, "crop") == 0) {
+		job->setup.has_crop = 1;
+		return spec_settings_crop(value, &job->setup.crop, error);
+	}
 	if (strcmp(name, "downsample") == 0)
 		return take_pixels(&job->setup.downsample, 1, "the factor", value, error);
 	if (strcmp(name, "patches") == 0)

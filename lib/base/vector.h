@@ -31,12 +31,14 @@
 SPEC_VECTOR_FUNCTION(double, spec_vector_sin, "sin");
 SPEC_VECTOR_FUNCTION(double, spec_vector_cos, "cos");
 SPEC_VECTOR_FUNCTION(double, spec_vector_exp, "exp");
+SPEC_VECTOR_FUNCTION(double, spec_vector_expm1, "expm1");
 SPEC_VECTOR_FUNCTION(double, spec_vector_erf, "erf"); /* since glibc 2.35 */
 SPEC_VECTOR_FUNCTION(float, spec_vector_expf, "expf");
 #else
 #define spec_vector_sin sin
 #define spec_vector_cos cos
 #define spec_vector_exp exp
+#define spec_vector_expm1 expm1
 #define spec_vector_erf erf
 #define spec_vector_expf expf
 #endif

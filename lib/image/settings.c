@@ -1,6 +1,7 @@
 #include "image/settings.h"
 
 #include <openexr.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "base/number.h"
@@ -101,4 +102,30 @@ spec_settings_take(struct spec_settings *settings, const char *name, const char 
 		*known = 0;
 	}
 	return status;
+}
+
+enum spec_status
+spec_settings_crop(const char *text, struct spec_window *crop, struct spec_error *error)
+{
+	int *corner[] = {&crop->x0, &crop->y0, &crop->x1, &crop->y1};
+	char part[32];
+
+	for (size_t i = 0; i < 4; i++) {
+		size_t length = strcspn(text, ",");
+		long long value;
+		enum spec_status status;
+
+		snprintf(part, sizeof part, "%.*s",
+			(int)(length < sizeof part ? length : sizeof part - 1), text);
+		if ((text[length] == ',') != (i < 3))
+			return spec_error_set(
+				error, SPEC_EUSAGE, "the crop is not X0,Y0,X1,Y1");
+		status = spec_number_parse_whole(
+			part, 0, 1 << 30, "the crop", &value, error);
+		if (status != SPEC_OK)
+			return status;
+		*corner[i] = (int)value;
+		text += length + (i < 3);
+	}
+	return SPEC_OK;
 }

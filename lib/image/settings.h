@@ -3,6 +3,7 @@
 #define SPEC_IMAGE_SETTINGS_H
 
 #include "base/error.h"
+#include "image/image.h"
 
 /* Refused before allocating; the message names the limit and the option that lifts it. */
 struct spec_limits {
@@ -41,5 +42,9 @@ enum spec_status spec_settings_take(struct spec_settings *settings, const char *
 /* "zip", "none", … to OpenEXR's number; DWA is refused: OpenEXRCore 3.1 cannot do it. */
 enum spec_status spec_settings_compression(
 	const char *name, int *compression, struct spec_error *error);
+
+/* "X0,Y0,X1,Y1", whole numbers from 0 on. Error (SPEC_EUSAGE): something else. */
+enum spec_status spec_settings_crop(
+	const char *text, struct spec_window *crop, struct spec_error *error);
 
 #endif

@@ -111,6 +111,19 @@ spec_coating_row(const struct spec_coating *coating, size_t wavelength, int behi
 		through[i] *= factor;
 }
 
+void
+spec_coating_spectrum(const struct spec_coating *coating, int behind, double cosine,
+	double thickness_nm, double *mirrored, double *through)
+{
+	const struct spec_stack *stack = behind ? &coating->back : &coating->front;
+	const double *factor = behind ? coating->from_before : coating->from_behind;
+
+	spec_stack_spectrum(
+		stack, cosine, thickness_nm, SPEC_POLARISATION_NONE, mirrored, through);
+	for (size_t i = 0; i < stack->wavelengths; i++)
+		through[i] *= factor[i];
+}
+
 /* What is left of 1, but for what rounding leaves of it. */
 static double
 absorbed(double reflectance, double transmittance)

@@ -40,6 +40,10 @@ void spec_coating_row(const struct spec_coating *coating, size_t wavelength, int
 	const double *cosine, const double *thickness_nm, size_t count,
 	enum spec_polarisation polarisation, double *mirrored, double *through);
 
+/* The same for one pixel at all wavelengths, unpolarised: mirrored and through [count]. */
+void spec_coating_spectrum(const struct spec_coating *coating, int behind, double cosine,
+	double thickness_nm, double *mirrored, double *through);
+
 /*
  * Reflectance R, transmittance T and absorptance A = 1 - R - T from the front as a curve of
  * three columns. cosine: of the angle of incidence, 0 to 1. A constant thickness alone.

@@ -21,7 +21,7 @@ spec_polarisation_parse(
 struct spec_fresnel
 spec_fresnel_dielectric(double cosine, double n1, double n2)
 {
-	double sine = n1 / n2 * sqrt(1 - cosine * cosine), inside, s, p;
+	double sine = n1 / n2 * sqrt((1 - cosine) * (1 + cosine)), inside, s, p;
 
 	if (sine >= 1)
 		return (struct spec_fresnel){1, 1};
@@ -40,7 +40,7 @@ SPEC_VECTORISED void
 spec_fresnel_spectrum(double cosine, const double *restrict n1, const double *restrict n2,
 	const double *restrict k2, size_t count, double *restrict s, double *restrict p)
 {
-	double c = cosine, sine2 = 1 - c * c;
+	double c = cosine, sine2 = (1 - c) * (1 + c);
 
 	for (size_t i = 0; i < count; i++) {
 		double real = n2[i] * n2[i] - k2[i] * k2[i], imaginary = 2 * n2[i] * k2[i];

@@ -1,5 +1,6 @@
 #include "optics/stack.h"
 
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -9,7 +10,7 @@
 #define PI 3.14159265358979323846
 #define LANES 128    /* worked on together: their state stays in the nearest cache */
 #define RESCALE 16   /* layers after which fields are made about 1 again */
-#define LEAST 1e-200 /* |q|^2 of a layer where light runs along it: not 0 */
+#define LEAST 1e-100 /* |q|^2 of a layer where light runs along it: not 0 */
 
 /*
  * Tangential fields at a boundary, of s and of p light, each divided by one factor that
@@ -20,16 +21,17 @@ struct fields {
 };
 
 struct lanes {
-	double along[LANES];         /* (n0 sin theta0)^2: the same in every layer */
-	double q[LANES];             /* n0 cos theta0 */
-	double e0[LANES];            /* n0^2 */
-	double er[LANES], ei[LANES]; /* the present medium's (n + ik)^2 */
-	double vr[LANES], vi[LANES]; /* its inverse */
-	double phase[LANES];         /* 4 pi d / lambda */
+	_Alignas(64) double along[LANES]; /* (n0 sin theta0)^2: the same in every layer */
+	double q[LANES];                  /* n0 cos theta0 */
+	double e0[LANES];                 /* n0^2 */
+	double er[LANES], ei[LANES];      /* the present medium's (n + ik)^2 */
+	double vr[LANES], vi[LANES];      /* its inverse */
+	double phase[LANES];              /* 4 pi d / lambda */
 	double qr[LANES], qi[LANES], squared[LANES]; /* n cos(theta), |its square| */
-	double turn[LANES], decay[LANES];            /* E's argument and logarithm */
-	double size[LANES], wr[LANES], wi[LANES];    /* E = size (wr + i wi) */
-	double through[LANES]; /* of the power, by absorption and by scaling */
+	double turn[LANES], decay[LANES];            /* half E's argument, and log |E| */
+	double lost[LANES], wr[LANES], wi[LANES];    /* |E| - 1, cosine and sine of turn */
+	double decayed[LANES]; /* what the powers are still to decay by, a logarithm */
+	double through[LANES]; /* its exponential */
 	double power_s[LANES], power_p[LANES]; /* that enters the substrate */
 	struct fields s, p;
 	double rs[LANES], rp[LANES], ts[LANES], tp[LANES];
@@ -103,8 +105,9 @@ static inline void
 normal_component(
 	double er, double ei, double along, double *qr, double *qi, double *squared)
 {
-	double a = er - along, length = sqrt(a * a + ei * ei) + LEAST;
-	double large = sqrt((length + fabs(a)) / 2), small = ei / (2 * large);
+	double a = er - along, size = fabs(a) + LEAST;
+	double length = sqrt(size * size + ei * ei);
+	double large = sqrt((length + size) / 2), small = ei / (2 * large);
 
 	*qr = a >= 0 ? large : small;
 	*qi = a >= 0 ? small : large;
@@ -131,7 +134,7 @@ begin(struct lanes *lanes)
 		lanes->p.ci[i] = lanes->ei[i];
 		lanes->power_s[i] = qr;
 		lanes->power_p[i] = lanes->er[i] * qr + lanes->ei[i] * qi;
-		lanes->through[i] = 1;
+		lanes->decayed[i] = 0;
 	}
 }
 
@@ -140,7 +143,9 @@ begin(struct lanes *lanes)
  * times e^(i delta), which keeps them from growing (Macleod's eq. 2.110 otherwise):
  *   B' = ((1 + E) B + (1 - E) C / eta) / 2
  *   C' = ((1 - E) B eta + (1 + E) C) / 2
- * a + ib is (1 + E) / 2, c + id is (1 - E) / 2.
+ * a + ib is (1 + E) / 2, c + id is (1 - E) / 2. c is a sum of what is not negative,
+ * -lost / 2 + |E| sin(turn)^2: 1 / eta and eta may be large, where q is small, and would
+ * lift the rounding of a difference.
  */
 static inline void
 advance(struct fields *fields, size_t i, double a, double b, double c, double d,
@@ -164,8 +169,9 @@ find_roots(struct lanes *restrict lanes)
 	for (size_t i = 0; i < LANES; i++) {
 		normal_component(lanes->er[i], lanes->ei[i], lanes->along[i], &lanes->qr[i],
 			&lanes->qi[i], &lanes->squared[i]);
-		lanes->turn[i] = lanes->qr[i] * lanes->phase[i];
+		lanes->turn[i] = lanes->qr[i] * lanes->phase[i] / 2;
 		lanes->decay[i] = -lanes->qi[i] * lanes->phase[i];
+		lanes->decayed[i] += lanes->decay[i];
 	}
 }
 
@@ -174,7 +180,7 @@ SPEC_VECTORISED static void
 find_waves(struct lanes *restrict lanes)
 {
 	for (size_t i = 0; i < LANES; i++)
-		lanes->size[i] = spec_vector_exp(lanes->decay[i]);
+		lanes->lost[i] = spec_vector_expm1(lanes->decay[i]);
 	for (size_t i = 0; i < LANES; i++)
 		lanes->wr[i] = spec_vector_cos(lanes->turn[i]);
 	for (size_t i = 0; i < LANES; i++)
@@ -187,13 +193,12 @@ advance_fields(struct lanes *restrict lanes)
 	for (size_t i = 0; i < LANES; i++) {
 		double er = lanes->er[i], ei = lanes->ei[i];
 		double vr = lanes->vr[i], vi = lanes->vi[i];
-		double qr = lanes->qr[i], qi = lanes->qi[i], half = lanes->size[i] / 2;
-		double a = half * lanes->wr[i], b = half * lanes->wi[i], c = 0.5 - a;
+		double qr = lanes->qr[i], qi = lanes->qi[i];
+		double sine = (1 + lanes->lost[i]) * lanes->wi[i], b = sine * lanes->wr[i];
+		double c = sine * lanes->wi[i] - lanes->lost[i] / 2, a = 1 - c;
 		double inverse = 1 / lanes->squared[i];
 		double ir = qr * inverse, ii = -qi * inverse; /* 1 / q */
 
-		a += 0.5;
-		lanes->through[i] *= lanes->size[i];
 		advance(&lanes->s, i, a, b, c, -b, qr, qi, ir, ii);
 		/* p: eta = e / q, 1 / eta = q / e */
 		advance(&lanes->p, i, a, b, c, -b, er * ir - ei * ii, er * ii + ei * ir,
@@ -201,8 +206,78 @@ advance_fields(struct lanes *restrict lanes)
 	}
 }
 
+/* Whether the present layer absorbs nothing and is evanescent in no lane. */
+SPEC_VECTORISED static int
+is_clear(const struct lanes *lanes)
+{
+	uint64_t other = 0;
+
+	for (size_t i = 0; i < LANES; i++)
+		other |= lanes->ei[i] == 0 && lanes->along[i] < lanes->er[i] ? 0 : 1;
+	return !other;
+}
+
 SPEC_VECTORISED static void
-rescale(struct fields *restrict fields, double *restrict power)
+find_clear_waves(struct lanes *restrict lanes)
+{
+	for (size_t i = 0; i < LANES; i++) {
+		lanes->qr[i] = sqrt(lanes->er[i] - lanes->along[i]);
+		lanes->turn[i] = lanes->qr[i] * lanes->phase[i] / 2;
+	}
+	for (size_t i = 0; i < LANES; i++)
+		lanes->wr[i] = spec_vector_cos(lanes->turn[i]);
+	for (size_t i = 0; i < LANES; i++)
+		lanes->wi[i] = spec_vector_sin(lanes->turn[i]);
+}
+
+/*
+ * Where nothing decays, in real numbers (Macleod's eq. 2.110 as it stands), with
+ * b = sin(delta) / eta and c = eta sin(delta):
+ *   B' = cos(delta) B - i b C
+ *   C' = cos(delta) C - i c B
+ */
+static inline void
+advance_clear(struct fields *fields, size_t i, double cosine, double b, double c)
+{
+	double br = fields->br[i], bi = fields->bi[i];
+	double cr = fields->cr[i], ci = fields->ci[i];
+
+	fields->br[i] = cosine * br + b * ci;
+	fields->bi[i] = cosine * bi - b * cr;
+	fields->cr[i] = cosine * cr + c * bi;
+	fields->ci[i] = cosine * ci - c * br;
+}
+
+SPEC_VECTORISED static void
+advance_clear_fields(struct lanes *restrict lanes)
+{
+	for (size_t i = 0; i < LANES; i++) {
+		double q = lanes->qr[i], sine = lanes->wi[i], cosine = lanes->wr[i];
+		double over = sine / q, times = sine * q;
+
+		advance_clear(&lanes->s, i, cosine, over, times);
+		advance_clear(
+			&lanes->p, i, cosine, times * lanes->vr[i], over * lanes->er[i]);
+	}
+}
+
+/* The decay since this was called last. */
+SPEC_VECTORISED static void
+find_decay(struct lanes *restrict lanes)
+{
+	for (size_t i = 0; i < LANES; i++)
+		lanes->through[i] = spec_vector_exp(lanes->decayed[i]);
+	for (size_t i = 0; i < LANES; i++)
+		lanes->decayed[i] = 0;
+}
+
+/*
+ * The power takes its part of the decay each time, as the fields' scale alone could make it
+ * overflow in a stack of a thousand barriers through which light gets all the same.
+ */
+SPEC_VECTORISED static void
+rescale(struct fields *restrict fields, const double *restrict through,
+	double *restrict power)
 {
 	for (size_t i = 0; i < LANES; i++) {
 		double size = fabs(fields->br[i]) + fabs(fields->bi[i]) +
@@ -213,35 +288,37 @@ rescale(struct fields *restrict fields, double *restrict power)
 		fields->bi[i] *= scale;
 		fields->cr[i] *= scale;
 		fields->ci[i] *= scale;
-		power[i] *= scale * scale;
+		power[i] *= through[i] * (scale * scale);
 	}
 }
 
-/* |r|^2 and the power that gets through, of fields at the front and the ambient's eta. */
+/*
+ * |r|^2 and the power that gets through, of fields at the front. b / c is the ambient's eta,
+ * which by itself may be too large or small to be squared.
+ */
 static inline void
-finish_one(const struct fields *fields, size_t i, double eta, double power,
+finish_one(const struct fields *fields, size_t i, double b, double c, double power,
 	double *reflectance, double *transmittance)
 {
-	double br = eta * fields->br[i], bi = eta * fields->bi[i];
-	double cr = fields->cr[i], ci = fields->ci[i];
+	double br = b * fields->br[i], bi = b * fields->bi[i];
+	double cr = c * fields->cr[i], ci = c * fields->ci[i];
 	double minus = (br - cr) * (br - cr) + (bi - ci) * (bi - ci);
 	double inverse = 1 / ((br + cr) * (br + cr) + (bi + ci) * (bi + ci));
 
 	*reflectance = minus * inverse;
-	*transmittance = 4 * eta * power * inverse;
+	*transmittance = 4 * b * c * power * inverse;
 }
 
 SPEC_VECTORISED static void
 finish(struct lanes *restrict lanes)
 {
 	for (size_t i = 0; i < LANES; i++) {
-		double q = lanes->q[i];
+		double q = lanes->q[i], through = lanes->through[i];
 
-		finish_one(&lanes->s, i, q, lanes->power_s[i] * lanes->through[i],
-			&lanes->rs[i], &lanes->ts[i]);
-		finish_one(&lanes->p, i, lanes->e0[i] / q,
-			lanes->power_p[i] * lanes->through[i], &lanes->rp[i],
-			&lanes->tp[i]);
+		finish_one(&lanes->s, i, q, 1, lanes->power_s[i] * through, &lanes->rs[i],
+			&lanes->ts[i]);
+		finish_one(&lanes->p, i, lanes->e0[i], q, lanes->power_p[i] * through,
+			&lanes->rp[i], &lanes->tp[i]);
 	}
 }
 
@@ -274,14 +351,21 @@ one_clear_layer(struct lanes *restrict lanes, double e0, double e1, double e2)
 	}
 }
 
+/* Rounding may lead out of it, in a resonance by many ulp. NaN stays NaN. */
+static inline double
+from_0_to_1(double share)
+{
+	return share > 1 ? 1 : share < 0 ? 0 : share;
+}
+
 /* The results of count lanes: shares of s and p light; light that grazes is all reflected. */
 SPEC_VECTORISED static void
 store(const struct lanes *restrict lanes, size_t count, double s, double p,
 	double *restrict reflectance, double *restrict transmittance)
 {
 	for (size_t i = 0; i < count; i++) {
-		double r = s * lanes->rs[i] + p * lanes->rp[i];
-		double t = s * lanes->ts[i] + p * lanes->tp[i];
+		double r = s * from_0_to_1(lanes->rs[i]) + p * from_0_to_1(lanes->rp[i]);
+		double t = s * from_0_to_1(lanes->ts[i]) + p * from_0_to_1(lanes->tp[i]);
 
 		reflectance[i] = lanes->q[i] > 0 ? r : 1;
 		transmittance[i] = lanes->q[i] > 0 ? t : 0;
@@ -372,14 +456,21 @@ cross_stack(struct lanes *lanes, const struct spec_stack *stack, size_t first, s
 	for (size_t layer = stack->layers; layer > 0; layer--) {
 		enter_medium(lanes, stack, layer, first, count);
 		set_phase(lanes, stack, layer, first, count, varied_nm);
-		find_roots(lanes);
-		find_waves(lanes);
-		advance_fields(lanes);
+		if (is_clear(lanes)) {
+			find_clear_waves(lanes);
+			advance_clear_fields(lanes);
+		} else {
+			find_roots(lanes);
+			find_waves(lanes);
+			advance_fields(lanes);
+		}
 		if (layer % RESCALE == 0) {
-			rescale(&lanes->s, lanes->power_s);
-			rescale(&lanes->p, lanes->power_p);
+			find_decay(lanes);
+			rescale(&lanes->s, lanes->through, lanes->power_s);
+			rescale(&lanes->p, lanes->through, lanes->power_p);
 		}
 	}
+	find_decay(lanes);
 	finish(lanes);
 }
 
@@ -391,7 +482,7 @@ set_incidence(struct lanes *restrict lanes, const double *restrict cosine,
 	for (size_t i = 0; i < LANES; i++) {
 		lanes->q[i] = n[i] * cosine[i];
 		lanes->e0[i] = n[i] * n[i];
-		lanes->along[i] = n[i] * n[i] * (1 - cosine[i] * cosine[i]);
+		lanes->along[i] = n[i] * n[i] * ((1 - cosine[i]) * (1 + cosine[i]));
 	}
 }
 

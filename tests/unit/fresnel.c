@@ -112,8 +112,9 @@ test_normal_incidence_on_a_metal(void **state)
 }
 
 /*
- * The amplitude is a difference of terms that are some ulp off: the cosine inside by the ulp
- * of 1 over its square, which is 1 + (n1 / n2)^2 here. It comes squared.
+ * The amplitude is a difference of terms that are some ulp off, and comes squared. Into a
+ * thin medium the angle is small: an ulp of its cosine is (n1 / n2)^2 ulp of its sine
+ * squared, and there as many of the square of the cosine inside.
  */
 static void
 test_brewster(void **state)
@@ -122,14 +123,14 @@ test_brewster(void **state)
 	for (size_t i = 0; i < INDICES; i++) {
 		for (size_t j = 0; j < INDICES; j++) {
 			double n1 = indices[i], n2 = indices[j], ratio = n1 / n2;
-			double cosine = n1 / hypot(n1, n2),
-			       off = 4 * ULP * (1 + ratio * ratio);
+			double cosine = n1 / hypot(n1, n2);
+			double off = 4 * ULP * (1 + pow(ratio, 4));
 			double r = (ratio * ratio - 1) / (ratio * ratio + 1);
 
 			near(spec_fresnel_dielectric(cosine, n1, n2).p, 0, off * off, "p");
 			near(spec_fresnel_conductor(cosine, n1, n2, 0).p, 0, off * off,
 				"p, conductor");
-			near(spec_fresnel_dielectric(cosine, n1, n2).s, r * r, 16 * ULP,
+			near(spec_fresnel_dielectric(cosine, n1, n2).s, r * r, 2 * off,
 				"s");
 		}
 	}
@@ -258,11 +259,14 @@ sensitivity(double cosine, double n1, double n2, double k2)
 	return (struct spec_fresnel){(double)s / step, (double)p / step};
 }
 
-/* |r|^2 where r is off by 16 ulp of itself and by what 16 ulp of its parts make of it. */
+/*
+ * |r|^2 where r, a difference of numbers below 1, is off by 2 ulp of 1, by 16 ulp of itself
+ * and by what 16 ulp of its parts make of it.
+ */
 static void
 near_power(double got, long double complex amplitude, double moved, const char *what)
 {
-	double r = (double)cabsl(amplitude), off = 16 * ULP * (r + moved);
+	double r = (double)cabsl(amplitude), off = 2 * ULP + 16 * ULP * (r + moved);
 
 	near(got, (double)power(amplitude), 2 * r * off + off * off, what);
 }
