@@ -41,8 +41,9 @@ struct job {
 };
 
 static enum spec_status
-take_option(struct job *job, const char *name, const char *value, struct spec_error *error)
+take_option(void *state, const char *name, const char *value, struct spec_error *error)
 {
+	struct job *job = state;
 	enum spec_status status = SPEC_OK;
 	long long bits;
 	int known;
@@ -69,19 +70,10 @@ take_option(struct job *job, const char *name, const char *value, struct spec_er
 }
 
 static void
-parse(struct cli *cli, struct job *job, struct spec_error *error)
+parse(struct cli *cli, struct job *job)
 {
 	spec_settings_init(&job->settings);
-	while (cli_next(cli)) {
-		if (cli->name)
-			cli_check(
-				cli, take_option(job, cli->name, cli->value, error), error);
-		else if (job->input)
-			cli_usage(cli, "one image at a time: '%s' and '%s'", job->input,
-				cli->value);
-		else
-			job->input = cli->value;
-	}
+	job->input = cli_take_all(cli, "image", take_option, job);
 	if (!job->input)
 		job->input = "-";
 }
@@ -174,7 +166,7 @@ main(int argc, char **argv)
 	struct cli cli;
 
 	cli_start(&cli, &program, argc, argv);
-	parse(&cli, &job, &error);
+	parse(&cli, &job);
 	cli_progress_start(&progress, "lines", job.settings.progress, job.settings.quiet);
 	job.settings.show = cli_progress_show;
 	job.settings.show_state = &progress;

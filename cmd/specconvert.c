@@ -478,10 +478,8 @@ main(int argc, char **argv)
 					: convert_image(&job, argc, argv, &error);
 	cli_progress_end(&progress);
 	cli_check(&cli, status, &error);
-	if (job.overflows > 0 && !job.settings.quiet)
-		cli_warn(&cli,
-			"%s: %llu samples are too large for 16 bits and became infinite",
-			job.settings.output, job.overflows);
+	if (!job.settings.quiet)
+		cli_warn_overflows(&cli, job.settings.output, job.overflows);
 	free_job(&job);
 	return 0;
 }

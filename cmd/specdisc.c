@@ -1,5 +1,4 @@
 /* specdisc - diffraction at discs and gratings, on light layers or as a chart; see specdisc(1). */
-#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -54,9 +53,10 @@ static const struct cli_program program = {
 	.writes_images = 1,
 };
 
-/* A disc as the options give it. */
+/* A disc as the options give it, or null. */
+enum { PRESET, TRACK, PIT, MASK, DISC_OPTIONS };
 struct choice {
-	const char *preset, *track, *pit, *mask;
+	const char *option[DISC_OPTIONS];
 };
 
 struct job {
@@ -74,25 +74,21 @@ struct job {
 
 /* An option of a disc: one that the last disc has already begins another disc. */
 static enum spec_status
-take_choice(struct job *job, size_t offset, const char *value, struct spec_error *error)
+take_choice(struct job *job, int option, const char *value, struct spec_error *error)
 {
 	void *list = job->choice;
-	const char **field;
 	enum spec_status status;
 
-	field = (const char **)(void *)((char *)&job->choice[job->choices - 1] + offset);
-	if (!*field) {
-		*field = value;
+	if (job->choices > 0 && !job->choice[job->choices - 1].option[option]) {
+		job->choice[job->choices - 1].option[option] = value;
 		return SPEC_OK;
 	}
 	status = spec_memory_grow(&list, &job->choice_room, job->choices + 1,
 		sizeof *job->choice, "discs", error);
 	job->choice = list;
-	if (status != SPEC_OK)
-		return status;
-	field = (const char **)(void *)((char *)&job->choice[job->choices++] + offset);
-	*field = value;
-	return SPEC_OK;
+	if (status == SPEC_OK)
+		job->choice[job->choices++].option[option] = value;
+	return status;
 }
 
 static enum spec_status
@@ -163,13 +159,13 @@ take_surface_option(struct job *job, const char *name, const char *value, int *k
 {
 	*known = 1;
 	if (strcmp(name, "preset") == 0)
-		return take_choice(job, offsetof(struct choice, preset), value, error);
+		return take_choice(job, PRESET, value, error);
 	if (strcmp(name, "track") == 0)
-		return take_choice(job, offsetof(struct choice, track), value, error);
+		return take_choice(job, TRACK, value, error);
 	if (strcmp(name, "pit") == 0)
-		return take_choice(job, offsetof(struct choice, pit), value, error);
+		return take_choice(job, PIT, value, error);
 	if (strcmp(name, "mask") == 0)
-		return take_choice(job, offsetof(struct choice, mask), value, error);
+		return take_choice(job, MASK, value, error);
 	if (strcmp(name, "model") == 0)
 		return take_model(job, value, error);
 	if (strcmp(name, "centre") == 0) {
@@ -190,8 +186,9 @@ take_surface_option(struct job *job, const char *name, const char *value, int *k
 }
 
 static enum spec_status
-take_option(struct job *job, const char *name, const char *value, struct spec_error *error)
+take_option(void *state, const char *name, const char *value, struct spec_error *error)
 {
+	struct job *job = state;
 	int known;
 	enum spec_status status = take_chart_option(job, name, value, &known, error);
 
@@ -217,7 +214,7 @@ check_options(const struct cli *cli, const struct job *job)
 		cli_usage(cli, "--orders and --chart exclude each other");
 	if (alone && job->input)
 		cli_usage(cli, "--orders and --chart read no image: '%s'", job->input);
-	if (alone && (job->choices > 1 || job->choice[0].mask || setup->keep ||
+	if (alone && (job->choices > 1 || job->choice[0].option[MASK] || setup->keep ||
 			     setup->has_centre))
 		cli_usage(cli, "--orders and --chart take one disc, and neither --mask, "
 			       "--keep nor --centre");
@@ -237,25 +234,10 @@ check_options(const struct cli *cli, const struct job *job)
 static void
 parse(struct cli *cli, struct job *job, struct spec_error *error)
 {
-	void *list = NULL;
-
 	spec_settings_init(&job->settings);
-	cli_check(cli,
-		spec_memory_grow(
-			&list, &job->choice_room, 1, sizeof *job->choice, "discs", error),
-		error);
-	job->choice = list;
-	job->choices = 1;
-	while (cli_next(cli)) {
-		if (cli->name)
-			cli_check(
-				cli, take_option(job, cli->name, cli->value, error), error);
-		else if (job->input)
-			cli_usage(cli, "one image at a time: '%s' and '%s'", job->input,
-				cli->value);
-		else
-			job->input = cli->value;
-	}
+	job->input = cli_take_all(cli, "image", take_option, job);
+	if (job->choices == 0) /* a disc as it comes */
+		cli_check(cli, take_choice(job, PRESET, "cd", error), error);
 	check_options(cli, job);
 }
 
@@ -263,19 +245,19 @@ static enum spec_status
 make_disc(const struct job *job, const struct choice *choice, struct spec_disc *disc,
 	struct spec_error *error)
 {
-	const struct spec_disc *preset =
-		spec_disc_find(choice->preset ? choice->preset : "cd", error);
+	const struct spec_disc *preset = spec_disc_find(
+		choice->option[PRESET] ? choice->option[PRESET] : "cd", error);
 	enum spec_status status = preset ? SPEC_OK : SPEC_EUSAGE;
 
 	if (status != SPEC_OK)
 		return status;
 	*disc = *preset;
-	if (choice->track)
+	if (choice->option[TRACK])
 		status = spec_number_parse_length(
-			choice->track, "the track", &disc->track_nm, error);
-	if (status == SPEC_OK && choice->pit)
+			choice->option[TRACK], "the track", &disc->track_nm, error);
+	if (status == SPEC_OK && choice->option[PIT])
 		status = spec_number_parse_length(
-			choice->pit, "the pit", &disc->pit_nm, error);
+			choice->option[PIT], "the pit", &disc->pit_nm, error);
 	if (disc->pit_width_nm > disc->track_nm)
 		disc->pit_width_nm *= disc->track_nm / preset->track_nm;
 	disc->lobe_width = job->has_spread ? job->spread_deg * 3.14159265358979323846 / 180
@@ -348,7 +330,7 @@ static enum spec_status
 take_surface(const struct job *job, size_t number, struct spec_diffract_surface *surface,
 	struct spec_error *error)
 {
-	const char *mask = job->choice[number].mask;
+	const char *mask = job->choice[number].option[MASK];
 	long long id = 0;
 	enum spec_status status =
 		make_disc(job, &job->choice[number], &surface[number].disc, error);
@@ -418,10 +400,7 @@ warn(const struct cli *cli, const struct job *job, long long bare)
 	if (bare > 0)
 		cli_warn(cli, "no disc is for the id of %lld %s: left out", bare,
 			bare == 1 ? "pixel" : "pixels");
-	if (job->overflows > 0)
-		cli_warn(cli,
-			"%s: %llu samples are too large for 16 bits and became infinite",
-			job->settings.output, job->overflows);
+	cli_warn_overflows(cli, job->settings.output, job->overflows);
 }
 
 int

@@ -51,9 +51,10 @@ static const struct cli_program program = {
 	.writes_images = 1,
 };
 
-/* A stack as the options give it. */
+/* A film as the options give it, or null. */
+enum { STACK, THICKNESS, MASK, FILM_OPTIONS };
 struct film {
-	const char *stack, *thickness, *mask;
+	const char *option[FILM_OPTIONS];
 };
 
 struct job {
@@ -73,28 +74,21 @@ struct job {
 
 /* An option of a film: one that the last film has already begins another film. */
 static enum spec_status
-take_film(struct job *job, size_t offset, const char *value, struct spec_error *error)
+take_film(struct job *job, int option, const char *value, struct spec_error *error)
 {
 	void *list = job->film;
-	const char **field;
 	enum spec_status status;
 
-	if (job->films > 0) {
-		field = (const char **)(void *)((char *)&job->film[job->films - 1] +
-						offset);
-		if (!*field) {
-			*field = value;
-			return SPEC_OK;
-		}
+	if (job->films > 0 && !job->film[job->films - 1].option[option]) {
+		job->film[job->films - 1].option[option] = value;
+		return SPEC_OK;
 	}
 	status = spec_memory_grow(
 		&list, &job->film_room, job->films + 1, sizeof *job->film, "stacks", error);
 	job->film = list;
-	if (status != SPEC_OK)
-		return status;
-	field = (const char **)(void *)((char *)&job->film[job->films++] + offset);
-	*field = value;
-	return SPEC_OK;
+	if (status == SPEC_OK)
+		job->film[job->films++].option[option] = value;
+	return status;
 }
 
 static enum spec_status
@@ -136,19 +130,20 @@ take_extrapolate(struct job *job, const char *value, struct spec_error *error)
 }
 
 static enum spec_status
-take_option(struct job *job, const char *name, const char *value, struct spec_error *error)
+take_option(void *state, const char *name, const char *value, struct spec_error *error)
 {
+	struct job *job = state;
 	int known;
 	enum spec_status status = take_chart_option(job, name, value, &known, error);
 
 	if (known)
 		return status;
 	if (strcmp(name, "stack") == 0)
-		return take_film(job, offsetof(struct film, stack), value, error);
+		return take_film(job, STACK, value, error);
 	if (strcmp(name, "thickness") == 0)
-		return take_film(job, offsetof(struct film, thickness), value, error);
+		return take_film(job, THICKNESS, value, error);
 	if (strcmp(name, "mask") == 0)
-		return take_film(job, offsetof(struct film, mask), value, error);
+		return take_film(job, MASK, value, error);
 	if (strcmp(name, "polarisation") == 0)
 		return spec_polarisation_parse(value, &job->polarisation, error);
 	if (strcmp(name, "extrapolate") == 0)
@@ -169,7 +164,7 @@ check_options(const struct cli *cli, const struct job *job)
 	int alone = job->spectrum || job->axes;
 
 	for (size_t i = 0; i < job->films; i++) {
-		if (!job->film[i].stack)
+		if (!job->film[i].option[STACK])
 			cli_usage(cli, "--thickness and --mask need a --stack");
 	}
 	if (job->films == 0)
@@ -178,7 +173,7 @@ check_options(const struct cli *cli, const struct job *job)
 		cli_usage(cli, "--spectrum and --chart exclude each other");
 	if (alone && job->input)
 		cli_usage(cli, "--spectrum and --chart read no image: '%s'", job->input);
-	if (alone && (job->films > 1 || job->film[0].mask || job->keep))
+	if (alone && (job->films > 1 || job->film[0].option[MASK] || job->keep))
 		cli_usage(cli, "--spectrum and --chart take one --stack, and neither "
 			       "--mask nor --keep");
 	if (!alone && (job->has_angle || job->grid))
@@ -188,19 +183,10 @@ check_options(const struct cli *cli, const struct job *job)
 }
 
 static void
-parse(struct cli *cli, struct job *job, struct spec_error *error)
+parse(struct cli *cli, struct job *job)
 {
 	spec_settings_init(&job->settings);
-	while (cli_next(cli)) {
-		if (cli->name)
-			cli_check(
-				cli, take_option(job, cli->name, cli->value, error), error);
-		else if (job->input)
-			cli_usage(cli, "one image at a time: '%s' and '%s'", job->input,
-				cli->value);
-		else
-			job->input = cli->value;
-	}
+	job->input = cli_take_all(cli, "image", take_option, job);
 	check_options(cli, job);
 }
 
@@ -212,10 +198,10 @@ make_coating(const struct job *job, const struct film *film,
 {
 	struct spec_recipe recipe = {0};
 	struct spec_thickness own;
-	enum spec_status status = spec_recipe_parse(film->stack, &recipe, error);
+	enum spec_status status = spec_recipe_parse(film->option[STACK], &recipe, error);
 
-	if (status == SPEC_OK && film->thickness && !thickness) {
-		status = spec_thickness_parse(film->thickness, &own, error);
+	if (status == SPEC_OK && film->option[THICKNESS] && !thickness) {
+		status = spec_thickness_parse(film->option[THICKNESS], &own, error);
 		thickness = &own;
 	}
 	if (status == SPEC_OK)
@@ -244,7 +230,7 @@ print_spectrum(
 	enum spec_status status = spec_coating_curve(coating,
 		cos(job->angle_deg * RADIANS_PER_DEGREE), job->polarisation, &curve, error);
 
-	snprintf(title, sizeof title, "%s, %g deg, %s light", job->film[0].stack,
+	snprintf(title, sizeof title, "%s, %g deg, %s light", job->film[0].option[STACK],
 		job->angle_deg, light[job->polarisation]);
 	spec_error_plain(title);
 	if (status == SPEC_OK)
@@ -317,7 +303,7 @@ static enum spec_status
 take_surface(const struct job *job, size_t number, struct spec_fold_surface *surface,
 	struct spec_error *error)
 {
-	const char *mask = job->film[number].mask;
+	const char *mask = job->film[number].option[MASK];
 	long long id = 0;
 	enum spec_status status = SPEC_OK;
 
@@ -397,10 +383,7 @@ warn(const struct cli *cli, const struct job *job, long long bare)
 	if (bare > 0)
 		cli_warn(cli, "no stack is for the id of %lld %s: left out", bare,
 			bare == 1 ? "pixel" : "pixels");
-	if (job->overflows > 0)
-		cli_warn(cli,
-			"%s: %llu samples are too large for 16 bits and became infinite",
-			job->settings.output, job->overflows);
+	cli_warn_overflows(cli, job->settings.output, job->overflows);
 }
 
 int
@@ -414,7 +397,7 @@ main(int argc, char **argv)
 	struct cli cli;
 
 	cli_start(&cli, &program, argc, argv);
-	parse(&cli, &job, &error);
+	parse(&cli, &job);
 	cli_progress_start(&progress, "lines", job.settings.progress, job.settings.quiet);
 	job.settings.show = cli_progress_show;
 	job.settings.show_state = &progress;

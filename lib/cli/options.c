@@ -259,6 +259,27 @@ cli_next(struct cli *cli)
 	return 1;
 }
 
+const char *
+cli_take_all(struct cli *cli, const char *noun,
+	enum spec_status (*take)(
+		void *state, const char *name, const char *value, struct spec_error *error),
+	void *state)
+{
+	struct spec_error error = {0};
+	const char *operand = NULL;
+
+	while (cli_next(cli)) {
+		if (cli->name)
+			cli_check(cli, take(state, cli->name, cli->value, &error), &error);
+		else if (operand)
+			cli_usage(cli, "one %s at a time: '%s' and '%s'", noun, operand,
+				cli->value);
+		else
+			operand = cli->value;
+	}
+	return operand;
+}
+
 void
 cli_die(const struct cli *cli, const struct spec_error *error)
 {
@@ -299,6 +320,15 @@ cli_check(const struct cli *cli, enum spec_status status, const struct spec_erro
 {
 	if (status != SPEC_OK)
 		cli_die(cli, error);
+}
+
+void
+cli_warn_overflows(const struct cli *cli, const char *output, unsigned long long overflows)
+{
+	if (overflows > 0)
+		cli_warn(cli,
+			"%s: %llu samples are too large for 16 bits and became infinite",
+			output, overflows);
 }
 
 int

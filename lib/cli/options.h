@@ -40,6 +40,16 @@ void cli_start(struct cli *cli, const struct cli_program *program, int argc, cha
  */
 int cli_next(struct cli *cli);
 
+/*
+ * Takes all options and operands of a tool that works on one thing: take gets each option,
+ * and fails as the library does. Returns the operand, or null; a second one ends the
+ * program. noun: what it is, for that message, such as "image".
+ */
+const char *cli_take_all(struct cli *cli, const char *noun,
+	enum spec_status (*take)(
+		void *state, const char *name, const char *value, struct spec_error *error),
+	void *state);
+
 /* Ends the program: one line on stderr, "name: message", exit status 2. */
 _Noreturn void cli_die(const struct cli *cli, const struct spec_error *error);
 _Noreturn void cli_usage(const struct cli *cli, const char *format, ...)
@@ -52,6 +62,10 @@ void cli_warn(const struct cli *cli, const char *format, ...)
 /* Ends the program with the error's line when status is not SPEC_OK. */
 void cli_check(
 	const struct cli *cli, enum spec_status status, const struct spec_error *error);
+
+/* The warning of what --half made infinite in output, if anything. */
+void cli_warn_overflows(
+	const struct cli *cli, const char *output, unsigned long long overflows);
 
 /* Closes stdout, checked, and returns the status to exit with: failed output is a failed run. */
 int cli_finish(const struct cli *cli, int status);

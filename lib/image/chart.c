@@ -40,8 +40,13 @@ parse_end(const struct spec_chart_variable *variable, const char *text, size_t a
 	char word[64];
 	enum spec_status status;
 
-	snprintf(word, sizeof word, "%.*s",
-		(int)(length < sizeof word ? length : sizeof word - 1), text + at);
+	if (length >= sizeof word) {
+		(void)spec_error_set(error, SPEC_EUSAGE, "the %s is longer than any number",
+			variable->name);
+		return fail_at(text, at, error);
+	}
+	memcpy(word, text + at, length);
+	word[length] = '\0';
 	if (variable->unit == SPEC_CHART_DEGREES)
 		status = spec_number_parse_angle(word, variable->lowest, variable->highest,
 			variable->name, value, error);
@@ -111,7 +116,8 @@ spec_chart_parse(struct spec_chart *chart, const char *text, struct spec_error *
 	}
 	if (axis[0].variable == axis[1].variable) {
 		(void)spec_error_set(error, SPEC_EUSAGE, "both axes are the same");
-		return fail_at(text, at + 1, error);
+		at++;
+		return fail_at(text, at + strspn(text + at, " "), error);
 	}
 	return SPEC_OK;
 }

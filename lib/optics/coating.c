@@ -43,6 +43,16 @@ settle_thickness(struct spec_coating *coating, const struct spec_recipe *recipe,
 	return SPEC_OK;
 }
 
+/* A half-space from which light is to come: what it hardly absorbs is taken as nothing. */
+static void
+clear_ambient(struct spec_stack *stack)
+{
+	for (size_t i = 0; i < stack->wavelengths; i++) {
+		if (stack->k[i] < SPEC_COATING_CLEAR)
+			stack->k[i] = 0;
+	}
+}
+
 static enum spec_status
 settle_sides(struct spec_coating *coating, struct spec_error *error)
 {
@@ -50,10 +60,12 @@ settle_sides(struct spec_coating *coating, struct spec_error *error)
 	size_t count = front->wavelengths, behind = (front->layers + 1) * count;
 	enum spec_status status;
 
+	clear_ambient(&coating->front);
 	if (!spec_stack_is_lit(front))
 		return spec_error_set(error, SPEC_EUSAGE,
 			"the stack's first medium absorbs: no light would arrive");
 	status = spec_stack_reverse(front, &coating->back, error);
+	clear_ambient(&coating->back);
 	coating->clear_behind = status == SPEC_OK && spec_stack_is_lit(&coating->back);
 	coating->from_behind = spec_memory_new(count, sizeof(double), "wavelengths", error);
 	coating->from_before = spec_memory_new(count, sizeof(double), "wavelengths", error);
@@ -62,7 +74,8 @@ settle_sides(struct spec_coating *coating, struct spec_error *error)
 	for (size_t i = 0; i < count; i++) {
 		double ratio = front->n[i] / front->n[behind + i];
 
-		coating->from_behind[i] = front->k[behind + i] > 0 ? 0 : ratio * ratio;
+		coating->from_behind[i] =
+			front->k[behind + i] < SPEC_COATING_CLEAR ? ratio * ratio : 0;
 		coating->from_before[i] = 1 / (ratio * ratio);
 	}
 	return SPEC_OK;

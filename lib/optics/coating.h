@@ -10,6 +10,12 @@
 #include "optics/thickness.h"
 #include "spectrum/curve.h"
 
+/*
+ * An extinction coefficient below which a half-space counts as clear: light of 550 nm falls
+ * to 1/e over 0.4 mm of it, and glass and water have 1e-9 to 1e-6.
+ */
+#define SPEC_COATING_CLEAR 1e-4
+
 struct spec_coating {
 	struct spec_stack front, back;   /* from the ambient, from the substrate */
 	struct spec_thickness thickness; /* of the varied layer, if there is one */

@@ -1,7 +1,6 @@
 #include "optics/thickness.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "base/number.h"
@@ -17,8 +16,14 @@ take_length(const char *text, size_t at, size_t length, double *length_nm,
 	char word[64];
 	enum spec_status status;
 
-	snprintf(word, sizeof word, "%.*s",
-		(int)(length < sizeof word ? length : sizeof word - 1), text + at);
+	if (length >= sizeof word) {
+		(void)spec_error_set(
+			error, SPEC_EUSAGE, "the thickness is longer than any number");
+		spec_error_point(error, text, at);
+		return SPEC_EUSAGE;
+	}
+	memcpy(word, text + at, length);
+	word[length] = '\0';
 	status = spec_number_parse_length(word, "the thickness", length_nm, error);
 	if (status != SPEC_OK)
 		spec_error_point(error, text, at);
@@ -76,13 +81,14 @@ spec_thickness_parse(
 	const char *text, struct spec_thickness *thickness, struct spec_error *error)
 {
 	enum spec_status status;
+	double number;
 
 	*thickness = (struct spec_thickness){.up = 2};
 	if (strncmp(text, GRAVITY " ", strlen(GRAVITY " ")) == 0) {
 		thickness->kind = SPEC_THICKNESS_GRAVITY;
 		return parse_gravity(text, thickness, error);
 	}
-	if (text[0] < '0' || text[0] > '9')
+	if (spec_number_scan(text, '.', &number) == 0)
 		return refuse(text, 0, error);
 	status = take_length(text, 0, strlen(text), &thickness->top_nm, error);
 	thickness->bottom_nm = thickness->top_nm;
