@@ -14,6 +14,7 @@
 
 #define MOST_ID 4294967295LL
 #define FARTHEST_M 1e9
+#define WIDEST_NM 1e7 /* of a track or a pit: 1 cm, 50000 orders */
 
 static const struct cli_option options[] = {
 	{'p', "preset", "cd|dvd|bluray|vinyl", "the disc (default: cd)"},
@@ -32,10 +33,11 @@ static const struct cli_option options[] = {
 	{'k', "keep", NULL, "leave the layers in the image"},
 	{0, "orders", NULL, "print the directions of the orders, and read no image"},
 	{0, "chart", "AXES",
-		"make a chart, and read no image: one or two of 'angle A..B,\n"
+		"make a chart, and read no image: one or two of 'eye A..B,\n"
 		"lamp A..B, azimuth A..B', to the right and downwards"},
 	{0, "size", "WxH", "of the chart in pixels (default: 480x270)"},
 	{'a', "angle", "ANGLE", "of the lamp, for --orders and --chart (default: 0deg)"},
+	{0, "eye", "ANGLE", "of the eye, for --chart (default: 0deg)"},
 	{0, "azimuth", "ANGLE",
 		"of lamp and eye, 0 across the tracks, 90 along them (default: 0deg)"},
 	{'g', "grid", "LO:HI:STEP",
@@ -65,9 +67,9 @@ struct job {
 	size_t choices, choice_room;
 	struct spec_diffract_setup setup;
 	const char *axes, *grid;
-	double angle_deg, azimuth_deg, spread_deg;
+	double angle_deg, eye_deg, azimuth_deg, spread_deg;
 	int orders, width, height;
-	int has_angle, has_size, has_axis, has_spread;
+	int has_angle, has_eye, has_azimuth, has_size, has_axis, has_spread, has_model;
 	unsigned long long overflows;
 	struct spec_settings settings;
 };
@@ -120,6 +122,7 @@ take_model(struct job *job, const char *value, struct spec_error *error)
 	if (!orders && strcmp(value, "composite") != 0)
 		return spec_error_set(
 			error, SPEC_EUSAGE, "'%s' is not composite or orders", value);
+	job->has_model = 1;
 	job->setup.model = orders ? spec_disc_orders : spec_disc_composite;
 	return SPEC_OK;
 }
@@ -141,8 +144,12 @@ take_chart_option(struct job *job, const char *name, const char *value, int *kno
 		job->has_angle = 1;
 		return spec_number_parse_angle(
 			value, 0, 90, "the angle", &job->angle_deg, error);
+	} else if (strcmp(name, "eye") == 0) {
+		job->has_eye = 1;
+		return spec_number_parse_angle(
+			value, -90, 90, "the eye's angle", &job->eye_deg, error);
 	} else if (strcmp(name, "azimuth") == 0) {
-		job->has_angle = 1;
+		job->has_azimuth = 1;
 		return spec_number_parse_angle(
 			value, -180, 180, "the azimuth", &job->azimuth_deg, error);
 	} else if (strcmp(name, "grid") == 0) {
@@ -218,11 +225,14 @@ check_options(const struct cli *cli, const struct job *job)
 			     setup->has_centre))
 		cli_usage(cli, "--orders and --chart take one disc, and neither --mask, "
 			       "--keep nor --centre");
-	if (!alone && (job->has_angle || job->grid))
+	if (!alone && (job->has_angle || job->has_azimuth || job->grid))
 		cli_usage(
 			cli, "--angle, --azimuth and --grid are for --orders and --chart");
-	if (!job->axes && job->has_size)
-		cli_usage(cli, "--size is for --chart");
+	if (!job->axes && (job->has_size || job->has_eye))
+		cli_usage(cli, "--size and --eye are for --chart");
+	if (job->orders &&
+		(job->has_model || job->has_spread || job->choice[0].option[PIT]))
+		cli_usage(cli, "--orders knows of neither --model, --spread nor --pit");
 	if (job->has_axis && !setup->has_centre)
 		cli_usage(cli, "--axis needs a --centre");
 	if (axis[0] == 0 && axis[1] == 0 && axis[2] == 0)
@@ -242,6 +252,18 @@ parse(struct cli *cli, struct job *job, struct spec_error *error)
 }
 
 static enum spec_status
+take_distance(
+	const char *text, const char *what, double *distance_nm, struct spec_error *error)
+{
+	enum spec_status status = spec_number_parse_length(text, what, distance_nm, error);
+
+	if (status == SPEC_OK && *distance_nm > WIDEST_NM)
+		status = spec_error_set(error, SPEC_ERANGE, "%s is more than %g mm: '%s'",
+			what, WIDEST_NM * 1e-6, text);
+	return status;
+}
+
+static enum spec_status
 make_disc(const struct job *job, const struct choice *choice, struct spec_disc *disc,
 	struct spec_error *error)
 {
@@ -253,11 +275,11 @@ make_disc(const struct job *job, const struct choice *choice, struct spec_disc *
 		return status;
 	*disc = *preset;
 	if (choice->option[TRACK])
-		status = spec_number_parse_length(
+		status = take_distance(
 			choice->option[TRACK], "the track", &disc->track_nm, error);
 	if (status == SPEC_OK && choice->option[PIT])
-		status = spec_number_parse_length(
-			choice->option[PIT], "the pit", &disc->pit_nm, error);
+		status =
+			take_distance(choice->option[PIT], "the pit", &disc->pit_nm, error);
 	if (disc->pit_width_nm > disc->track_nm)
 		disc->pit_width_nm *= disc->track_nm / preset->track_nm;
 	disc->lobe_width = job->has_spread ? job->spread_deg * 3.14159265358979323846 / 180
@@ -280,6 +302,24 @@ print_orders(const struct job *job, const struct spec_disc *disc,
 	return status;
 }
 
+/* What an axis gives is not given by an option, too. */
+static enum spec_status
+check_axes(const struct job *job, const struct spec_chart *chart, struct spec_error *error)
+{
+	const int given[] = {job->has_eye, job->has_angle, job->has_azimuth};
+	static const char *const option[] = {"--eye", "--angle", "--azimuth"};
+
+	for (size_t i = 0; i < 2; i++) {
+		size_t variable = chart->axis[i].variable;
+
+		if (variable < SPEC_DISC_VARIABLES && given[variable])
+			return spec_error_set(error, SPEC_EUSAGE,
+				"the chart goes over '%s', and %s gives one",
+				chart->variable[variable].name, option[variable]);
+	}
+	return SPEC_OK;
+}
+
 static enum spec_status
 draw_chart(struct job *job, const struct spec_disc *disc, const struct spec_grid *grid,
 	int argc, char **argv, struct spec_error *error)
@@ -296,8 +336,10 @@ draw_chart(struct job *job, const struct spec_disc *disc, const struct spec_grid
 	struct spec_image image = {0};
 	enum spec_status status;
 
-	spec_disc_chart_variables(&chart, job->angle_deg, job->azimuth_deg);
+	spec_disc_chart_variables(&chart, job->eye_deg, job->angle_deg, job->azimuth_deg);
 	status = spec_chart_parse(&chart, job->axes, error);
+	if (status == SPEC_OK)
+		status = check_axes(job, &chart, error);
 	if (status == SPEC_OK)
 		status = spec_chart_image(&chart, &image, error);
 	if (status == SPEC_OK && job->settings.history)

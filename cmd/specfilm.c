@@ -1,5 +1,4 @@
 /* specfilm - interference in thin films, on light layers or as a chart; see specfilm(1). */
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,7 +12,6 @@
 #include "spectrum/spd.h"
 
 #define MOST_ID 4294967295LL
-#define RADIANS_PER_DEGREE (3.14159265358979323846 / 180)
 
 static const struct cli_option options[] = {
 	{'s', "stack", "STACK",
@@ -228,7 +226,7 @@ print_spectrum(
 	struct spec_curve curve = {0};
 	char title[256];
 	enum spec_status status = spec_coating_curve(coating,
-		cos(job->angle_deg * RADIANS_PER_DEGREE), job->polarisation, &curve, error);
+		spec_film_cosine(job->angle_deg), job->polarisation, &curve, error);
 
 	snprintf(title, sizeof title, "%s, %g deg, %s light", job->film[0].option[STACK],
 		job->angle_deg, light[job->polarisation]);
@@ -265,6 +263,27 @@ draw_chart(struct job *job, struct spec_chart *chart, const struct spec_coating 
 	return status;
 }
 
+static int
+has_axis(const struct spec_chart *chart, size_t variable)
+{
+	return chart->axis[0].variable == variable || chart->axis[1].variable == variable;
+}
+
+/* What an axis gives is not given by an option, too. */
+static enum spec_status
+check_axes(const struct job *job, const struct spec_chart *chart, struct spec_error *error)
+{
+	if (!job->axes)
+		return SPEC_OK;
+	if (has_axis(chart, SPEC_FILM_THICKNESS) && job->film[0].option[THICKNESS])
+		return spec_error_set(error, SPEC_EUSAGE,
+			"the chart goes over the thickness, and --thickness gives one");
+	if (has_axis(chart, SPEC_FILM_ANGLE) && job->has_angle)
+		return spec_error_set(error, SPEC_EUSAGE,
+			"the chart goes over the angle, and --angle gives one");
+	return SPEC_OK;
+}
+
 /* --spectrum and --chart. */
 static enum spec_status
 show_film(struct job *job, int argc, char **argv, struct spec_error *error)
@@ -280,9 +299,9 @@ show_film(struct job *job, int argc, char **argv, struct spec_error *error)
 	spec_film_chart_variables(&chart, 0, job->angle_deg);
 	if (status == SPEC_OK && job->axes)
 		status = spec_chart_parse(&chart, job->axes, error);
-	over_thickness =
-		job->axes && (chart.axis[0].variable == SPEC_FILM_THICKNESS ||
-				     chart.axis[1].variable == SPEC_FILM_THICKNESS);
+	if (status == SPEC_OK)
+		status = check_axes(job, &chart, error);
+	over_thickness = job->axes && has_axis(&chart, SPEC_FILM_THICKNESS);
 	if (status == SPEC_OK)
 		status = make_coating(job, &job->film[0], over_thickness ? &any : NULL,
 			grid.wavelength_nm, grid.count, &coating, error);

@@ -23,7 +23,7 @@ need(size_t channel, const char *what, const char *name, struct spec_error *erro
 {
 	if (channel != SPEC_LAYERS_NONE)
 		return SPEC_OK;
-	return spec_error_set(error, SPEC_EFORMAT, "%s: has no channels '%s'", name, what);
+	return spec_error_set(error, SPEC_EFORMAT, "%s: has no %s", name, what);
 }
 
 static void
@@ -47,20 +47,20 @@ plan_surface(struct spec_diffract *diffract, struct spec_error *error)
 	const char *name = diffract->name;
 	int by_id = 0;
 	enum spec_status status =
-		need(normal_of(surface)[0], "Ns.X, Ns.Y, Ns.Z", name, error);
+		need(normal_of(surface)[0], "channels Ns.X, Ns.Y, Ns.Z", name, error);
 
 	if (status == SPEC_OK)
-		status = need(surface->eye[0], "I.X, I.Y, I.Z", name, error);
+		status = need(surface->eye[0], "channels I.X, I.Y, I.Z", name, error);
 	if (status == SPEC_OK && setup->has_centre)
-		status = need(surface->point[0], "P.X, P.Y, P.Z", name, error);
+		status = need(surface->point[0], "channels P.X, P.Y, P.Z", name, error);
 	else if (status == SPEC_OK)
 		status = need(surface->tangent[0],
-			"Tan.X, Tan.Y, Tan.Z' (or give --centre and --axis), '...", name,
+			"channels Tan.X, Tan.Y, Tan.Z (--centre does without)", name,
 			error);
 	for (size_t i = 0; i < setup->surfaces; i++)
 		by_id |= !setup->surface[i].any;
 	if (status == SPEC_OK && by_id)
-		status = need(surface->id, "id", name, error);
+		status = need(surface->id, "channel id", name, error);
 	if (status == SPEC_OK && by_id &&
 		diffract->relight.input->channel[surface->id].sample != SPEC_SAMPLE_UINT)
 		status = spec_error_set(

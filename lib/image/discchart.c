@@ -5,11 +5,12 @@
 #define PI 3.14159265358979323846
 
 void
-spec_disc_chart_variables(struct spec_chart *chart, double lamp_deg, double azimuth_deg)
+spec_disc_chart_variables(
+	struct spec_chart *chart, double eye_deg, double lamp_deg, double azimuth_deg)
 {
 	chart->variables = SPEC_DISC_VARIABLES;
-	chart->variable[SPEC_DISC_ANGLE] =
-		(struct spec_chart_variable){"angle", SPEC_CHART_DEGREES, -90, 90, 0};
+	chart->variable[SPEC_DISC_EYE] =
+		(struct spec_chart_variable){"eye", SPEC_CHART_DEGREES, -90, 90, eye_deg};
 	chart->variable[SPEC_DISC_LAMP] =
 		(struct spec_chart_variable){"lamp", SPEC_CHART_DEGREES, -90, 90, lamp_deg};
 	chart->variable[SPEC_DISC_AZIMUTH] = (struct spec_chart_variable){
@@ -28,7 +29,7 @@ spec_disc_chart_evaluate(
 		.half_cosine = half_cosine};
 
 	for (size_t i = 0; i < count; i++) {
-		double eye = at[SPEC_DISC_ANGLE][i] * PI / 180;
+		double eye = at[SPEC_DISC_EYE][i] * PI / 180;
 		double lamp = at[SPEC_DISC_LAMP][i] * PI / 180;
 		double azimuth = at[SPEC_DISC_AZIMUTH][i] * PI / 180;
 		double sines = sin(eye) + sin(lamp);

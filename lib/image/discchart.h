@@ -13,13 +13,13 @@ struct spec_disc_chart {
 };
 
 /*
- * The variables of such a chart [degrees]: 0 angle, from the normal to the eye; 1 lamp, from
+ * The variables of such a chart [degrees]: 0 eye, from the normal to the eye; 1 lamp, from
  * the normal to the lamp, both to one side; 2 azimuth of the plane that both lie in, 0 across
  * the tracks, 90 along them.
  */
-enum { SPEC_DISC_ANGLE, SPEC_DISC_LAMP, SPEC_DISC_AZIMUTH, SPEC_DISC_VARIABLES };
+enum { SPEC_DISC_EYE, SPEC_DISC_LAMP, SPEC_DISC_AZIMUTH, SPEC_DISC_VARIABLES };
 void spec_disc_chart_variables(
-	struct spec_chart *chart, double lamp_deg, double azimuth_deg);
+	struct spec_chart *chart, double eye_deg, double lamp_deg, double azimuth_deg);
 
 /*
  * A chart's evaluate function; state is a struct spec_disc_chart. The values are reflectance

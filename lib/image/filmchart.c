@@ -27,6 +27,12 @@ spec_film_share_name(enum spec_film_share share)
 	return shares[share];
 }
 
+double
+spec_film_cosine(double angle_deg)
+{
+	return angle_deg < 90 ? cos(angle_deg * RADIANS_PER_DEGREE) : 0;
+}
+
 void
 spec_film_chart_variables(struct spec_chart *chart, double thickness_nm, double angle_deg)
 {
@@ -44,7 +50,7 @@ share_of(enum spec_film_share share, double reflectance, double transmittance)
 		return reflectance;
 	if (share == SPEC_FILM_TRANSMITTANCE)
 		return transmittance;
-	return 1 - reflectance - transmittance;
+	return spec_coating_absorptance(reflectance, transmittance);
 }
 
 void
@@ -56,7 +62,7 @@ spec_film_chart_evaluate(
 	double cosine[SPEC_CHART_RUN], transmittance[SPEC_CHART_RUN];
 
 	for (size_t i = 0; i < count; i++)
-		cosine[i] = cos(at[SPEC_FILM_ANGLE][i] * RADIANS_PER_DEGREE);
+		cosine[i] = spec_film_cosine(at[SPEC_FILM_ANGLE][i]);
 	for (size_t band = 0; band < stack->wavelengths; band++) {
 		double *reflectance = value + band * SPEC_CHART_RUN;
 

@@ -17,6 +17,9 @@ enum spec_status spec_film_share_parse(
 	const char *text, enum spec_film_share *share, struct spec_error *error);
 const char *spec_film_share_name(enum spec_film_share share);
 
+/* The cosine of an angle of incidence, 0 to 90 degrees; 0 at 90. */
+double spec_film_cosine(double angle_deg);
+
 /* The state of spec_film_chart_evaluate. */
 struct spec_film_chart {
 	const struct spec_coating *coating; /* at the chart's grid */

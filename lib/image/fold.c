@@ -210,9 +210,11 @@ incidence_at(const struct spec_fold *fold, size_t film, const struct film_rows *
 static double
 share_at(const float *cover, const float *first, size_t x)
 {
-	if (!cover || !first || !(cover[x] < first[x]))
+	double whole = first ? first[x] : 1;
+
+	if (!cover || !(cover[x] < whole))
 		return 1;
-	return cover[x] > 0 ? (double)cover[x] / first[x] : 0;
+	return cover[x] > 0 ? cover[x] / whole : 0;
 }
 
 /* Cuts pixels x0..x0+count-1 of a film into segments; bare ones are left out. */

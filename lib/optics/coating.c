@@ -137,9 +137,8 @@ spec_coating_spectrum(const struct spec_coating *coating, int behind, double cos
 		through[i] *= factor[i];
 }
 
-/* What is left of 1, but for what rounding leaves of it. */
-static double
-absorbed(double reflectance, double transmittance)
+double
+spec_coating_absorptance(double reflectance, double transmittance)
 {
 	double rest = 1 - reflectance - transmittance;
 
@@ -171,6 +170,6 @@ spec_coating_curve(const struct spec_coating *coating, double cosine,
 		curve->value, curve->value + count);
 	for (size_t i = 0; i < count; i++)
 		curve->value[2 * count + i] =
-			absorbed(curve->value[i], curve->value[count + i]);
+			spec_coating_absorptance(curve->value[i], curve->value[count + i]);
 	return SPEC_OK;
 }

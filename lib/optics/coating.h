@@ -50,6 +50,9 @@ void spec_coating_row(const struct spec_coating *coating, size_t wavelength, int
 void spec_coating_spectrum(const struct spec_coating *coating, int behind, double cosine,
 	double thickness_nm, double *mirrored, double *through);
 
+/* What of 1 is left, but for what rounding leaves of it: the absorptance. */
+double spec_coating_absorptance(double reflectance, double transmittance);
+
 /*
  * Reflectance R, transmittance T and absorptance A = 1 - R - T from the front as a curve of
  * three columns. cosine: of the angle of incidence, 0 to 1. A constant thickness alone.

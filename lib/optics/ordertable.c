@@ -8,6 +8,12 @@
 
 #define RADIANS_PER_DEGREE (3.14159265358979323846 / 180)
 
+static double
+cleaned(double component)
+{
+	return fabs(component) < 1e-15 ? 0 : component;
+}
+
 static void
 print_orders(FILE *file, const struct spec_disc *disc, const double incident[3],
 	double wavelength_nm)
@@ -24,10 +30,11 @@ print_orders(FILE *file, const struct spec_disc *disc, const double incident[3],
 			    incident, order, wavelength_nm, disc->track_nm, outgoing))
 			continue;
 		sine = hypot(outgoing[0], outgoing[1]);
-		/* Adding 0 makes 0 of -0, whose azimuth would be 180. */
+		/* What rounding leaves of 0, or -0, would have an azimuth, too. */
 		fprintf(file, "%d %.10g %.10g %.10g %.10g\n", order, wavelength_nm,
 			atan2(sine, outgoing[2]) / RADIANS_PER_DEGREE,
-			atan2(outgoing[0] + 0.0, outgoing[1] + 0.0) / RADIANS_PER_DEGREE,
+			atan2(cleaned(outgoing[0]), cleaned(outgoing[1])) /
+				RADIANS_PER_DEGREE,
 			spec_grating_lamellar(
 				disc->pit_width_nm / disc->track_nm, phase, order));
 	}

@@ -5,6 +5,7 @@
 
 #include "base/number.h"
 #include "base/vector.h"
+#include "optics/recipe.h"
 
 #define GRAVITY "gravity"
 
@@ -24,7 +25,11 @@ take_length(const char *text, size_t at, size_t length, double *length_nm,
 	}
 	memcpy(word, text + at, length);
 	word[length] = '\0';
-	status = spec_number_parse_length(word, "the thickness", length_nm, error);
+	status = spec_number_parse_thickness(word, "the thickness", length_nm, error);
+	if (status == SPEC_OK && *length_nm > SPEC_RECIPE_THICKEST_NM)
+		status = spec_error_set(error, SPEC_ERANGE,
+			"the thickness '%s' is more than %g m", word,
+			SPEC_RECIPE_THICKEST_NM * 1e-9);
 	if (status != SPEC_OK)
 		spec_error_point(error, text, at);
 	return status;
@@ -67,6 +72,11 @@ parse_gravity(const char *text, struct spec_thickness *thickness, struct spec_er
 	length = strcspn(text + second, " ");
 	if (status == SPEC_OK)
 		status = take_length(text, second, length, &thickness->bottom_nm, error);
+	if (status == SPEC_OK && (thickness->top_nm == 0 || thickness->bottom_nm == 0)) {
+		status = spec_error_set(error, SPEC_ERANGE,
+			"gravity leaves no film of 0 nm: the course is exponential");
+		spec_error_point(error, text, thickness->top_nm == 0 ? first : second);
+	}
 	if (status != SPEC_OK)
 		return status;
 	at = second + length;

@@ -21,7 +21,8 @@ struct spec_thickness {
 /*
  * "500nm", or "gravity 530nm..730nm", at the top and at the bottom, and perhaps the object's
  * axis that looks upwards: x, y, z (the default), -x, -y or -z. Lengths as
- * spec_number_parse_length has them. Errors: SPEC_EUSAGE, with a caret; SPEC_ERANGE.
+ * spec_number_parse_thickness has them, up to SPEC_RECIPE_THICKEST_NM; those of gravity are
+ * not 0. Errors: SPEC_EUSAGE and SPEC_ERANGE, with a caret.
  */
 enum spec_status spec_thickness_parse(
 	const char *text, struct spec_thickness *thickness, struct spec_error *error);

@@ -17,7 +17,7 @@ picture dvd.png 'layers --scene disc --size 480x360 --samples 2 --eye 0.1,-0.2,0
 # far from the mirrored lamp that c_spec adds nothing.
 # f^2: along the tracks, where the first side strip of 550 nm is brightest, and no spike is visible.
 peak=$(awk 'BEGIN { s = 550 / 2400; printf "%.15g", atan2(s, sqrt(1 - s * s)) * 45 / atan2(1, 1) }')
-run "specdisc --preset cd --azimuth 90deg --chart 'angle ${peak}deg..${peak}deg' --size 1x1 -o side.exr"
+run "specdisc --preset cd --azimuth 90deg --chart 'eye ${peak}deg..${peak}deg' --size 1x1 -o side.exr"
 check 'side strip: f² at its first peak, 550 nm' \
   "$(pixel side.exr 0,0 | awk '$1 == 550 { u = 550 / 2400
     printf "%.7f", ($2 / atan2(0, -1) - 0.001) / (0.005 * exp(-10 * u * u)) }')" within 0.29224 5e-6
@@ -26,7 +26,7 @@ check 'side strip: brightest wavelength [nm], in bands of 5 nm' \
 
 # g^2: across the tracks, where x = 0, at 20 degrees: one spike, of 1600 nm sin 20 = 547.2 nm, on
 # a ground that is the same at all wavelengths. Its weight is the area above the ground.
-run "specdisc --preset cd --chart 'angle 20deg..20deg' --size 1x1 -o main.exr"
+run "specdisc --preset cd --chart 'eye 20deg..20deg' --size 1x1 -o main.exr"
 pixel main.exr 0,0 | awk '
   { nm[NR] = $1; f[NR] = $2 / atan2(0, -1) }
   END {
@@ -39,7 +39,7 @@ check 'main strip: ground, c0 c2 + c_diff [1/sr]' "$ground" within 0.00105 1e-6
 check 'main strip: the spike at 20° [nm]' "$middle" within \
   "$(awk 'BEGIN { print 1600 * sin(atan2(0, -1) / 9) }')" 0.001
 
-run "specdisc --preset dvd --chart 'angle 40deg..40deg' --size 1x1 -o dvd.exr"
+run "specdisc --preset dvd --chart 'eye 40deg..40deg' --size 1x1 -o dvd.exr"
 check 'DVD: the spike at 40° [nm]' \
   "$(pixel dvd.exr 0,0 | awk '{ nm[NR] = $1; f[NR] = $2 }
     END { for (i in f) { area += f[i] - f[1]; moment += (f[i] - f[1]) * nm[i] } print moment / area }')" \

@@ -3,10 +3,10 @@ title 'Where the orders of a compact disc go'
 from 'T 7.2, 7.3, 7.5 and 7.6 (Vangorp & Yskout 2005)'
 
 picture orders.png \
-  'specdisc --preset cd --model orders --chart "angle -80deg..80deg, lamp -60deg..60deg" --size 640x240 | spec2rgb -e -4 -o orders.png' \
+  'specdisc --preset cd --model orders --chart "eye -80deg..80deg, lamp -60deg..60deg" --size 640x240 | spec2rgb -e -4 -o orders.png' \
   'main strip, by scalar diffraction: eye -80° to 80° to the right, lamp -60° to 60° downwards; the white line is the mirrored lamp'
 picture strips.png \
-  'specdisc --preset cd --chart "angle -45deg..45deg, azimuth 0deg..90deg" --size 640x240 | spec2rgb -e 6 -o strips.png' \
+  'specdisc --preset cd --chart "eye -45deg..45deg, azimuth 0deg..90deg" --size 640x240 | spec2rgb -e 6 -o strips.png' \
   "main and side strips, by T's model: eye -45° to 45° to the right, from across the tracks down to along them"
 
 run 'specdisc --preset cd --orders --angle 0deg --grid 532:532:1'
@@ -35,7 +35,7 @@ check 'lamp at 30°, sin(eye) + sin(lamp) = m λ / 1600 nm: largest error of an 
   "$(largest <off)" at-most 1e-7
 
 # The side strips are brightest where 2400 nm sin(eye) = n wavelength.
-run "specdisc --preset cd --chart 'angle 10deg..16deg' --azimuth 90deg --size 3x1 -o side.exr"
+run "specdisc --preset cd --chart 'eye 10deg..16deg' --azimuth 90deg --size 3x1 -o side.exr"
 for x in 0 1 2; do
   angle=$((10 + 3 * x))
   check "side strip 1 at $angle°: brightest wavelength [nm]" \
