@@ -28,7 +28,7 @@ endif
 # Debian packages that the build, the tests and the demo need beside gcc, make and git, and
 # those that only lint, bench and fuzz need.
 DEPS = g++ pkg-config libopenexr-dev libdeflate-dev libpng-dev libopenimageio-dev \
-	libcmocka-dev bats openexr mandoc
+	libembree-dev libcmocka-dev bats openexr mandoc
 LINTDEPS = clang-format clang-tidy cppcheck shellcheck mandoc
 BENCHDEPS = openimageio-tools
 FUZZDEPS = clang libclang-rt-14-dev
@@ -136,6 +136,9 @@ $(PLUGIN): $(BUILD)/obj/lib/image/pictures.o
 $(DATA):
 	@mkdir -p $(@D)
 	ln -sfn $(CURDIR)/spectra $@
+
+# What traces rays alone needs Embree, which costs every other program's start.
+$(BUILD)/bin/specrender $(BUILD)/tests/render: LDLIBS += -lembree3
 
 LINK = $(QUIET)$(CC) $(ALLLDFLAGS) -o $@ $^ $(LDLIBS)
 

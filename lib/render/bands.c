@@ -1,0 +1,114 @@
+#include "render/bands.h"
+
+#include <stdlib.h>
+
+#include "base/memory.h"
+#include "colour/upsample.h"
+#include "spectrum/mean.h"
+#include "spectrum/planck.h"
+
+enum spec_status
+spec_bands_make(struct spec_bands_grid *bands, const struct spec_grid *grid,
+	struct spec_error *error)
+{
+	const double *w = grid->wavelength_nm;
+	size_t count = grid->count;
+	double *edge;
+
+	*bands = (struct spec_bands_grid){.count = count};
+	bands->wavelength_nm = spec_memory_new(count, sizeof(double), "bands", error);
+	bands->edges_nm = edge = spec_memory_new(count + 1, sizeof *edge, "bands", error);
+	if (!bands->wavelength_nm || !edge) {
+		spec_bands_free(bands);
+		return SPEC_ENOMEM;
+	}
+	for (size_t i = 0; i < count; i++)
+		bands->wavelength_nm[i] = w[i];
+	for (size_t i = 1; i < count; i++)
+		edge[i] = (w[i - 1] + w[i]) / 2;
+	edge[0] = count > 1 ? w[0] - (edge[1] - w[0]) : w[0] - 0.5;
+	edge[count] =
+		count > 1 ? w[count - 1] + (w[count - 1] - edge[count - 1]) : w[0] + 0.5;
+	return SPEC_OK;
+}
+
+void
+spec_bands_free(struct spec_bands_grid *bands)
+{
+	free(bands->wavelength_nm);
+	free(bands->edges_nm);
+	*bands = (struct spec_bands_grid){0};
+}
+
+static enum spec_status
+sample_curve(const struct spec_bands_grid *bands, const struct spec_curve *curve,
+	enum spec_bands_use use, double *value, struct spec_error *error)
+{
+	enum spec_extrapolate rule =
+		use == SPEC_BANDS_LIGHT ? SPEC_EXTRAPOLATE_ZERO : SPEC_EXTRAPOLATE_REFUSE;
+
+	/* The outer edges may reach beyond data that the bands' middles do not leave. */
+	if (use == SPEC_BANDS_RATIO) {
+		enum spec_status status = spec_curve_sample(
+			curve, 0, rule, bands->wavelength_nm, bands->count, value, error);
+
+		if (status != SPEC_OK)
+			return status;
+		rule = SPEC_EXTRAPOLATE_CONSTANT;
+	}
+	if (use == SPEC_BANDS_INDEX)
+		return spec_curve_sample(
+			curve, 0, rule, bands->wavelength_nm, bands->count, value, error);
+	return spec_curve_mean(curve, 0, rule, bands->edges_nm, bands->count, value, error);
+}
+
+static enum spec_status
+sample_rgb(const struct spec_bands_grid *bands, const double rgb[3],
+	enum spec_bands_use use, double *value, struct spec_error *error)
+{
+	struct spec_upsampler upsampler = {0};
+	struct spec_sigmoid sigmoid;
+	const struct spec_space *space = spec_space_find("srgb", error);
+	enum spec_status status =
+		space ? spec_upsampler_load(space, &upsampler, error) : SPEC_EUSAGE;
+
+	if (status == SPEC_OK && use == SPEC_BANDS_RATIO)
+		status = spec_upsample_albedo(&upsampler, rgb, &sigmoid, error);
+	else if (status == SPEC_OK)
+		status = spec_upsample_unbounded(&upsampler, rgb, &sigmoid, error);
+	if (status == SPEC_OK && use == SPEC_BANDS_LIGHT)
+		status = spec_upsampler_mean_light(&upsampler, &sigmoid,
+			SPEC_EXTRAPOLATE_ZERO, bands->edges_nm, bands->count, value, error);
+	else if (status == SPEC_OK)
+		spec_sigmoid_mean(&sigmoid, bands->edges_nm, bands->count, value);
+	spec_upsampler_free(&upsampler);
+	return status;
+}
+
+enum spec_status
+spec_bands_sample(const struct spec_bands_grid *bands, const struct spec_scene *scene,
+	const struct spec_scene_spectrum *spectrum, enum spec_bands_use use, double *value,
+	struct spec_error *error)
+{
+	enum spec_status status = SPEC_OK;
+
+	switch (spectrum->kind) {
+	case SPEC_SCENE_CONSTANT:
+		for (size_t i = 0; i < bands->count; i++)
+			value[i] = spectrum->value;
+		break;
+	case SPEC_SCENE_BLACKBODY:
+		spec_planck_relative_mean(
+			spectrum->value, bands->edges_nm, bands->count, value);
+		break;
+	case SPEC_SCENE_CURVE:
+		status = sample_curve(bands, &spectrum->curve, use, value, error);
+		break;
+	case SPEC_SCENE_RGB:
+		status = sample_rgb(bands, spectrum->rgb, use, value, error);
+		break;
+	}
+	if (status != SPEC_OK)
+		spec_scene_prefix(scene, &spectrum->place, error);
+	return status;
+}

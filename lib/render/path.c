@@ -1,0 +1,213 @@
+#include "render/path.h"
+
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "base/vector.h"
+
+#define SURE_DEPTH 4 /* scatterings before a path may end by chance */
+
+struct spec_path_room {
+	float *throughput, *weight, *light, *scattered; /* [bands] */
+	double *room;                                   /* [2 * bands] */
+};
+
+struct spec_path_room *
+spec_path_room_new(size_t bands, struct spec_error *error)
+{
+	struct spec_path_room *room = spec_memory_new(1, sizeof *room, "paths", error);
+	size_t padded = (bands + 15) / 16 * 16;
+
+	if (!room)
+		return NULL;
+	room->throughput = spec_memory_aligned(4 * padded, sizeof(float), "bands", error);
+	room->room = spec_memory_aligned(2 * padded, sizeof(double), "bands", error);
+	if (!room->throughput || !room->room) {
+		spec_path_room_free(room);
+		return NULL;
+	}
+	room->weight = room->throughput + padded;
+	room->light = room->weight + padded;
+	room->scattered = room->light + padded;
+	return room;
+}
+
+void
+spec_path_room_free(struct spec_path_room *room)
+{
+	if (!room)
+		return;
+	free(room->throughput);
+	free(room->room);
+	free(room);
+}
+
+SPEC_VECTORISED static void
+fill(float *to, float value, size_t count)
+{
+	for (size_t i = 0; i < count; i++)
+		to[i] = value;
+}
+
+SPEC_VECTORISED static void
+multiply(float *restrict to, const float *restrict by, size_t count)
+{
+	for (size_t i = 0; i < count; i++)
+		to[i] *= by[i];
+}
+
+SPEC_VECTORISED static void
+add_two(float *restrict radiance, const float *restrict a, const float *restrict b,
+	float weight, size_t count)
+{
+	for (size_t i = 0; i < count; i++)
+		radiance[i] += weight * a[i] * b[i];
+}
+
+SPEC_VECTORISED static void
+add_three(float *restrict radiance, const float *restrict a, const float *restrict b,
+	const float *restrict c, float weight, size_t count)
+{
+	for (size_t i = 0; i < count; i++)
+		radiance[i] += weight * a[i] * b[i] * c[i];
+}
+
+/* Floats of at least 0 are in the order of their bits, of which gcc makes vector code. */
+typedef uint32_t bits __attribute__((may_alias));
+
+SPEC_VECTORISED static float
+largest(const float *value, size_t count)
+{
+	const bits *number = (const bits *)(const void *)value;
+	uint32_t most = 0;
+	float result;
+
+	for (size_t i = 0; i < count; i++)
+		most = number[i] > most ? number[i] : most;
+	memcpy(&result, &most, sizeof result);
+	return result;
+}
+
+/* The power heuristic with exponent 2 for the first of two ways. */
+static double
+heuristic(double first, double second)
+{
+	double a = first * first, b = second * second;
+
+	return a < INFINITY ? a / (a + b) : 1;
+}
+
+/* Light that a choice among all lights finds, unshadowed. */
+static void
+add_direct(const struct spec_tracer *tracer, const struct spec_surface *surface,
+	int without_small, struct spec_sampler *sampler, struct spec_path_room *room,
+	float *radiance)
+{
+	struct spec_light_sample light = {.value = room->light};
+	struct spec_ray ray;
+	double density, weight = 1;
+
+	if (!spec_lights_sample(tracer->lights, surface->hit->point, sampler, &light) ||
+		(without_small && light.density == 0))
+		return;
+	density = spec_material_evaluate(surface, light.direction, room->scattered);
+	if (!(density > 0))
+		return;
+	ray = spec_world_leave(tracer->world, surface->hit, light.direction);
+	if (spec_world_blocks(tracer->world, &ray, light.distance * (1 - 1e-4)))
+		return;
+	if (light.density > 0)
+		weight = heuristic(light.density, density);
+	add_three(radiance, room->throughput, room->scattered, light.value, (float)weight,
+		tracer->bands);
+}
+
+/* Light that the path itself runs into. density: of the last scattering; 0: a mirror. */
+static void
+add_met(const struct spec_tracer *tracer, const struct spec_hit *hit,
+	const struct spec_ray *ray, double density, struct spec_path_room *room,
+	float *radiance)
+{
+	double other;
+	const float *value = spec_lights_emitted(
+		tracer->lights, hit, ray->origin, ray->direction, &other);
+
+	if (value)
+		add_two(radiance, room->throughput, value,
+			(float)(density > 0 ? heuristic(density, other) : 1),
+			tracer->bands);
+}
+
+static void
+add_surroundings(const struct spec_tracer *tracer, const struct spec_ray *ray,
+	double density, struct spec_path_room *room, float *radiance)
+{
+	double weight = 1;
+
+	if (density > 0)
+		weight = heuristic(density,
+			spec_lights_surroundings_density(tracer->lights, ray->direction));
+	spec_lights_add_surroundings(
+		tracer->lights, ray->direction, room->throughput, weight, radiance);
+}
+
+/* Ends a path by chance when it carries little; 0: it ended. */
+static int
+survives(struct spec_path_room *room, size_t bands, int depth, struct spec_sampler *sampler)
+{
+	float chance = largest(room->throughput, bands);
+
+	if (!(chance > 0))
+		return 0;
+	if (depth < SURE_DEPTH || chance >= 1)
+		return 1;
+	if (chance < 0.05f)
+		chance = 0.05f;
+	if (spec_sampler_number(sampler) >= chance)
+		return 0;
+	for (size_t i = 0; i < bands; i++)
+		room->throughput[i] /= chance;
+	return 1;
+}
+
+void
+spec_path_trace(const struct spec_tracer *tracer, const struct spec_ray *first, int depth,
+	int without_small, struct spec_sampler *sampler, struct spec_path_room *room,
+	float *radiance)
+{
+	struct spec_ray ray = *first;
+	double density = 0;
+	struct spec_hit hit;
+
+	fill(room->throughput, 1, tracer->bands);
+	for (;; depth++) {
+		struct spec_surface surface = {.hit = &hit, .room = room->room};
+		struct spec_vector direction;
+
+		if (!spec_world_meet(tracer->world, &ray, &hit)) {
+			add_surroundings(tracer, &ray, density, room, radiance);
+			return;
+		}
+		add_met(tracer, &hit, &ray, density, room, radiance);
+		if (depth >= tracer->max_depth)
+			return;
+		surface.material =
+			&tracer->material[tracer->scene->shape[hit.shape].material];
+		surface.eye = spec_vector_negate(ray.direction);
+		surface.cosine = spec_vector_dot(surface.eye, hit.shading);
+		if (spec_material_is_rough(surface.material))
+			add_direct(
+				tracer, &surface, without_small, sampler, room, radiance);
+		without_small = 0;
+		density = spec_material_sample(
+			&surface, room->throughput, sampler, &direction, room->weight);
+		if (density < 0)
+			return;
+		multiply(room->throughput, room->weight, tracer->bands);
+		if (!survives(room, tracer->bands, depth, sampler))
+			return;
+		ray = spec_world_leave(tracer->world, &hit, direction);
+	}
+}

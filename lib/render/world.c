@@ -1,0 +1,557 @@
+#include "render/world.h"
+
+#include <embree3/rtcore.h>
+#include <float.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+
+#define PI 3.14159265358979323846
+#define SKIN 2e-6 /* of the scene's radius: how far from a surface a ray starts */
+
+/* A sphere or a disk, as Embree's callbacks need it. */
+struct quadric {
+	const struct spec_scene_shape *shape;
+	size_t number;
+};
+
+/* A mesh's triangles in world space; null lists where a shape is no mesh. */
+struct facets {
+	struct spec_vector *corner; /* [3 * triangles] */
+	struct spec_vector *normal; /* [triangles] geometric, unit */
+};
+
+struct spec_world {
+	const struct spec_scene *scene;
+	RTCDevice device;
+	RTCScene tree;
+	struct quadric *quadric; /* [shapes] */
+	struct facets *facets;   /* [shapes] */
+	struct spec_vector middle;
+	double radius;
+	char message[256]; /* of Embree's first error */
+};
+
+/* A ray on its way, with what Embree's own has no room for. */
+struct journey {
+	struct RTCIntersectContext context;
+	struct spec_vector origin, direction;
+};
+
+static struct spec_vector
+point_through(const double m[4][4], struct spec_vector p)
+{
+	return (struct spec_vector){m[0][0] * p.x + m[0][1] * p.y + m[0][2] * p.z + m[0][3],
+		m[1][0] * p.x + m[1][1] * p.y + m[1][2] * p.z + m[1][3],
+		m[2][0] * p.x + m[2][1] * p.y + m[2][2] * p.z + m[2][3]};
+}
+
+static struct spec_vector
+vector_through(const double m[4][4], struct spec_vector v)
+{
+	return (struct spec_vector){m[0][0] * v.x + m[0][1] * v.y + m[0][2] * v.z,
+		m[1][0] * v.x + m[1][1] * v.y + m[1][2] * v.z,
+		m[2][0] * v.x + m[2][1] * v.y + m[2][2] * v.z};
+}
+
+/* A normal goes by the transpose of the inverse. */
+static struct spec_vector
+normal_through(const struct spec_transform *transform, struct spec_vector n)
+{
+	const double(*m)[4] = transform->inverse;
+
+	return spec_vector_unit(
+		(struct spec_vector){m[0][0] * n.x + m[1][0] * n.y + m[2][0] * n.z,
+			m[0][1] * n.x + m[1][1] * n.y + m[2][1] * n.z,
+			m[0][2] * n.x + m[1][2] * n.y + m[2][2] * n.z});
+}
+
+/*
+ * The nearest distance in (least, most) at which o + t d meets a sphere about 0; 0: none.
+ * The middle's distance is found before the discriminant, which then loses no digits.
+ */
+static double
+meet_sphere(double radius, struct spec_vector o, struct spec_vector d, double least,
+	double most)
+{
+	double a = spec_vector_dot(d, d), b = -spec_vector_dot(o, d) / a;
+	struct spec_vector nearest = spec_vector_along(o, d, b);
+	double rest = (radius * radius - spec_vector_dot(nearest, nearest)) / a, half;
+
+	if (!(rest >= 0))
+		return 0;
+	half = sqrt(rest);
+	if (b - half > least && b - half < most)
+		return b - half;
+	return b + half > least && b + half < most ? b + half : 0;
+}
+
+static double
+meet_disk(const struct spec_scene_shape *shape, struct spec_vector o, struct spec_vector d,
+	double least, double most)
+{
+	double t = d.z != 0 ? (shape->height - o.z) / d.z : 0, x, y, square;
+
+	if (!(t > least && t < most))
+		return 0;
+	x = o.x + t * d.x;
+	y = o.y + t * d.y;
+	square = x * x + y * y;
+	return square <= shape->radius * shape->radius &&
+			       square >= shape->inner_radius * shape->inner_radius
+		       ? t
+		       : 0;
+}
+
+static double
+meet_quadric(const struct spec_scene_shape *shape, const struct journey *journey,
+	double least, double most)
+{
+	struct spec_vector o = point_through(shape->world.inverse, journey->origin);
+	struct spec_vector d = vector_through(shape->world.inverse, journey->direction);
+
+	return shape->kind == SPEC_SCENE_SPHERE
+		       ? meet_sphere(shape->radius, o, d, least, most)
+		       : meet_disk(shape, o, d, least, most);
+}
+
+static void
+intersect_quadric(const struct RTCIntersectFunctionNArguments *arguments)
+{
+	const struct quadric *quadric = arguments->geometryUserPtr;
+	const struct journey *journey = (const struct journey *)arguments->context;
+	struct RTCRayHit *rayhit = (struct RTCRayHit *)arguments->rayhit;
+	double t;
+
+	if (!arguments->valid[0])
+		return;
+	t = meet_quadric(quadric->shape, journey, rayhit->ray.tnear, rayhit->ray.tfar);
+	if (t == 0)
+		return;
+	rayhit->ray.tfar = (float)t;
+	rayhit->hit.u = rayhit->hit.v = 0;
+	rayhit->hit.primID = arguments->primID;
+	rayhit->hit.geomID = arguments->geomID;
+	rayhit->hit.instID[0] = arguments->context->instID[0];
+}
+
+static void
+occlude_quadric(const struct RTCOccludedFunctionNArguments *arguments)
+{
+	const struct quadric *quadric = arguments->geometryUserPtr;
+	const struct journey *journey = (const struct journey *)arguments->context;
+	struct RTCRay *ray = (struct RTCRay *)arguments->ray;
+
+	if (!arguments->valid[0])
+		return;
+	if (meet_quadric(quadric->shape, journey, ray->tnear, ray->tfar) != 0)
+		ray->tfar = -INFINITY;
+}
+
+/* Bounds in world space: the corners of the box in the object's. */
+static void
+bound_quadric(const struct RTCBoundsFunctionArguments *arguments)
+{
+	const struct quadric *quadric = arguments->geometryUserPtr;
+	const struct spec_scene_shape *shape = quadric->shape;
+	double r = shape->radius, low = -r, high = r, least[3], most[3];
+	float *bounds = &arguments->bounds_o->lower_x;
+
+	if (shape->kind == SPEC_SCENE_DISK)
+		low = high = shape->height;
+	for (int i = 0; i < 3; i++) {
+		least[i] = DBL_MAX;
+		most[i] = -DBL_MAX;
+	}
+	for (int corner = 0; corner < 8; corner++) {
+		struct spec_vector p = point_through(shape->world.m,
+			(struct spec_vector){corner & 1 ? r : -r, corner & 2 ? r : -r,
+				corner & 4 ? high : low});
+		double at[3] = {p.x, p.y, p.z};
+
+		for (int i = 0; i < 3; i++) {
+			least[i] = at[i] < least[i] ? at[i] : least[i];
+			most[i] = at[i] > most[i] ? at[i] : most[i];
+		}
+	}
+	for (int i = 0; i < 3; i++) { /* lower x, y, z, one apart, upper x, y, z */
+		double slack = 1e-6 * (fabs(least[i]) + fabs(most[i])) + FLT_MIN;
+
+		bounds[i] = (float)(least[i] - slack);
+		bounds[4 + i] = (float)(most[i] + slack);
+	}
+}
+
+static void
+note_error(void *user, enum RTCError code, const char *text)
+{
+	struct spec_world *world = user;
+
+	(void)code;
+	if (world->message[0] == '\0')
+		snprintf(world->message, sizeof world->message, "%s", text ? text : "");
+}
+
+static enum spec_status
+add_quadric(struct spec_world *world, size_t number, struct spec_error *error)
+{
+	RTCGeometry geometry = rtcNewGeometry(world->device, RTC_GEOMETRY_TYPE_USER);
+
+	if (!geometry)
+		return spec_error_set(error, SPEC_ENOMEM, "Embree: %s", world->message);
+	world->quadric[number] = (struct quadric){&world->scene->shape[number], number};
+	rtcSetGeometryUserPrimitiveCount(geometry, 1);
+	rtcSetGeometryUserData(geometry, &world->quadric[number]);
+	rtcSetGeometryBoundsFunction(geometry, bound_quadric, NULL);
+	rtcSetGeometryIntersectFunction(geometry, intersect_quadric);
+	rtcSetGeometryOccludedFunction(geometry, occlude_quadric);
+	rtcCommitGeometry(geometry);
+	rtcAttachGeometryByID(world->tree, geometry, (unsigned)number);
+	rtcReleaseGeometry(geometry);
+	return SPEC_OK;
+}
+
+static struct spec_vector
+vertex(const float *list, size_t i)
+{
+	return (struct spec_vector){list[3 * i], list[3 * i + 1], list[3 * i + 2]};
+}
+
+static enum spec_status
+make_facets(struct facets *facets, const struct spec_scene_shape *shape,
+	struct spec_error *error)
+{
+	facets->corner = spec_memory_new(
+		shape->triangles, 3 * sizeof *facets->corner, "triangles", error);
+	facets->normal = spec_memory_new(
+		shape->triangles, sizeof *facets->normal, "triangles", error);
+	if (!facets->corner || !facets->normal)
+		return SPEC_ENOMEM;
+	for (size_t i = 0; i < shape->triangles; i++) {
+		struct spec_vector *corner = facets->corner + 3 * i, local[3];
+
+		for (size_t j = 0; j < 3; j++) {
+			local[j] = vertex(shape->point, shape->index[3 * i + j]);
+			corner[j] = point_through(shape->world.m, local[j]);
+		}
+		/* In object space: a space that is mirrored keeps its outside. */
+		facets->normal[i] = normal_through(&shape->world,
+			spec_vector_cross(spec_vector_subtract(local[1], local[0]),
+				spec_vector_subtract(local[2], local[0])));
+	}
+	return SPEC_OK;
+}
+
+static enum spec_status
+add_mesh(struct spec_world *world, size_t number, struct spec_error *error)
+{
+	const struct spec_scene_shape *shape = &world->scene->shape[number];
+	RTCGeometry geometry = rtcNewGeometry(world->device, RTC_GEOMETRY_TYPE_TRIANGLE);
+	float *point = NULL;
+	uint32_t *index = NULL;
+
+	if (geometry) {
+		point = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0,
+			RTC_FORMAT_FLOAT3, 3 * sizeof *point, shape->vertices);
+		index = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0,
+			RTC_FORMAT_UINT3, 3 * sizeof *index, shape->triangles);
+	}
+	if (!point || !index) {
+		if (geometry)
+			rtcReleaseGeometry(geometry);
+		return spec_error_set(error, SPEC_ENOMEM, "Embree: %s", world->message);
+	}
+	for (size_t i = 0; i < shape->vertices; i++) {
+		struct spec_vector p = point_through(shape->world.m,
+			(struct spec_vector){shape->point[3 * i], shape->point[3 * i + 1],
+				shape->point[3 * i + 2]});
+
+		point[3 * i] = (float)p.x;
+		point[3 * i + 1] = (float)p.y;
+		point[3 * i + 2] = (float)p.z;
+	}
+	memcpy(index, shape->index, 3 * shape->triangles * sizeof *index);
+	rtcCommitGeometry(geometry);
+	rtcAttachGeometryByID(world->tree, geometry, (unsigned)number);
+	rtcReleaseGeometry(geometry);
+	return make_facets(&world->facets[number], shape, error);
+}
+
+static void
+find_bounds(struct spec_world *world)
+{
+	struct RTCBounds bounds;
+	struct spec_vector low, high;
+
+	rtcGetSceneBounds(world->tree, &bounds);
+	low = (struct spec_vector){bounds.lower_x, bounds.lower_y, bounds.lower_z};
+	high = (struct spec_vector){bounds.upper_x, bounds.upper_y, bounds.upper_z};
+	if (!(low.x <= high.x)) /* nothing is there */
+		low = high = (struct spec_vector){0, 0, 0};
+	world->middle = spec_vector_scale(spec_vector_add(low, high), 0.5);
+	world->radius = spec_vector_length(spec_vector_subtract(high, low)) / 2;
+}
+
+enum spec_status
+spec_world_open(struct spec_world **result, const struct spec_scene *scene,
+	struct spec_error *error)
+{
+	struct spec_world *world = spec_memory_new(1, sizeof *world, "worlds", error);
+	enum spec_status status = SPEC_OK;
+
+	*result = world;
+	if (!world)
+		return SPEC_ENOMEM;
+	world->scene = scene;
+	world->quadric =
+		spec_memory_new(scene->shapes, sizeof *world->quadric, "shapes", error);
+	world->facets =
+		spec_memory_new(scene->shapes, sizeof *world->facets, "shapes", error);
+	/* One thread: building is short, and Embree's own would outlive our limits. */
+	world->device = world->quadric && world->facets
+				? rtcNewDevice("threads=1,set_affinity=0")
+				: NULL;
+	if (world->device) {
+		rtcSetDeviceErrorFunction(world->device, note_error, world);
+		world->tree = rtcNewScene(world->device);
+	}
+	if (!world->tree)
+		status = spec_error_set(error, SPEC_ENOMEM, "Embree does not start");
+	if (status == SPEC_OK)
+		rtcSetSceneFlags(world->tree, RTC_SCENE_FLAG_ROBUST);
+	for (size_t i = 0; i < scene->shapes && status == SPEC_OK; i++)
+		status = scene->shape[i].kind == SPEC_SCENE_MESH
+				 ? add_mesh(world, i, error)
+				 : add_quadric(world, i, error);
+	if (status == SPEC_OK) {
+		rtcCommitScene(world->tree);
+		if (world->message[0])
+			status = spec_error_set(
+				error, SPEC_ENOMEM, "Embree: %s", world->message);
+	}
+	if (status == SPEC_OK)
+		find_bounds(world);
+	else
+		spec_world_close(world);
+	if (status != SPEC_OK)
+		*result = NULL;
+	return status;
+}
+
+void
+spec_world_close(struct spec_world *world)
+{
+	if (!world)
+		return;
+	if (world->tree)
+		rtcReleaseScene(world->tree);
+	if (world->device)
+		rtcReleaseDevice(world->device);
+	for (size_t i = 0; world->facets && i < world->scene->shapes; i++) {
+		free(world->facets[i].corner);
+		free(world->facets[i].normal);
+	}
+	free(world->facets);
+	free(world->quadric);
+	free(world);
+}
+
+void
+spec_world_bounds(
+	const struct spec_world *world, struct spec_vector *middle, double *radius)
+{
+	*middle = world->middle;
+	*radius = world->radius;
+}
+
+static void
+set_out(struct journey *journey, const struct spec_ray *ray)
+{
+	rtcInitIntersectContext(&journey->context);
+	journey->origin = ray->origin;
+	journey->direction = ray->direction;
+}
+
+static struct RTCRay
+embree_ray(const struct spec_ray *ray, double distance)
+{
+	return (struct RTCRay){.org_x = (float)ray->origin.x,
+		.org_y = (float)ray->origin.y,
+		.org_z = (float)ray->origin.z,
+		.dir_x = (float)ray->direction.x,
+		.dir_y = (float)ray->direction.y,
+		.dir_z = (float)ray->direction.z,
+		.tfar = (float)distance,
+		.mask = (unsigned)-1};
+}
+
+/* Spherical coordinates as pbrt has them: u around z from x, v from the pole at -z. */
+static void
+describe_sphere(const struct spec_scene_shape *shape, struct spec_vector p,
+	struct spec_hit *hit, struct spec_vector *normal, struct spec_vector *tangent)
+{
+	double r = shape->radius, azimuth = atan2(p.y, p.x), height = p.z / r;
+
+	p = spec_vector_scale(spec_vector_unit(p), r);
+	*normal = p;
+	*tangent = (struct spec_vector){-p.y, p.x, 0};
+	if (p.x == 0 && p.y == 0)
+		*tangent = (struct spec_vector){1, 0, 0};
+	hit->u = (azimuth < 0 ? azimuth + 2 * PI : azimuth) / (2 * PI);
+	hit->v = 1 - acos(fmin(fmax(height, -1), 1)) / PI;
+	hit->object = (struct spec_vector){
+		(p.x / r + 1) / 2, (p.y / r + 1) / 2, (p.z / r + 1) / 2};
+	hit->point = point_through(shape->world.m, p);
+}
+
+static void
+describe_disk(const struct spec_scene_shape *shape, struct spec_vector p,
+	struct spec_hit *hit, struct spec_vector *normal, struct spec_vector *tangent)
+{
+	double r = shape->radius, distance = hypot(p.x, p.y), azimuth = atan2(p.y, p.x);
+
+	p.z = shape->height;
+	*normal = (struct spec_vector){0, 0, 1};
+	*tangent = (struct spec_vector){-p.y, p.x, 0};
+	if (distance == 0)
+		*tangent = (struct spec_vector){1, 0, 0};
+	hit->u = (azimuth < 0 ? azimuth + 2 * PI : azimuth) / (2 * PI);
+	hit->v = r > shape->inner_radius ? (r - distance) / (r - shape->inner_radius) : 0;
+	hit->object = (struct spec_vector){(p.x / r + 1) / 2, (p.y / r + 1) / 2, 0};
+	hit->point = point_through(shape->world.m, p);
+}
+
+static void
+describe_quadric(const struct spec_scene_shape *shape, const struct spec_ray *ray,
+	struct spec_hit *hit)
+{
+	struct spec_vector at =
+		spec_vector_along(ray->origin, ray->direction, hit->distance);
+	struct spec_vector local = point_through(shape->world.inverse, at), normal, tangent;
+
+	if (shape->kind == SPEC_SCENE_SPHERE)
+		describe_sphere(shape, local, hit, &normal, &tangent);
+	else
+		describe_disk(shape, local, hit, &normal, &tangent);
+	hit->normal = hit->shading = normal_through(&shape->world, normal);
+	hit->tangent = spec_vector_unit(vector_through(shape->world.m, tangent));
+}
+
+/* a (1 - u - v) + b u + c v */
+static struct spec_vector
+blend(const float *list, const uint32_t *corner, double u, double v)
+{
+	return spec_vector_along(
+		spec_vector_along(spec_vector_scale(vertex(list, corner[0]), 1 - u - v),
+			vertex(list, corner[1]), u),
+		vertex(list, corner[2]), v);
+}
+
+/* dp/du from the vertices' uv, or any direction in the plane where they have none. */
+static struct spec_vector
+mesh_tangent(const struct spec_scene_shape *shape, const uint32_t *corner,
+	struct spec_vector normal)
+{
+	struct spec_vector a = vertex(shape->point, corner[0]);
+	struct spec_vector b = spec_vector_subtract(vertex(shape->point, corner[1]), a);
+	struct spec_vector c = spec_vector_subtract(vertex(shape->point, corner[2]), a);
+	const float *uv = shape->uv;
+	double du1, du2, dv1, dv2, area;
+	struct spec_vector tangent;
+
+	du1 = uv[2 * corner[1]] - uv[2 * corner[0]];
+	du2 = uv[2 * corner[2]] - uv[2 * corner[0]];
+	dv1 = uv[2 * corner[1] + 1] - uv[2 * corner[0] + 1];
+	dv2 = uv[2 * corner[2] + 1] - uv[2 * corner[0] + 1];
+	area = du1 * dv2 - dv1 * du2;
+	if (area == 0)
+		return spec_frame_about(normal).x;
+	tangent = spec_vector_along(spec_vector_scale(b, dv2 / area), c, -dv1 / area);
+	return spec_vector_unit(vector_through(shape->world.m, tangent));
+}
+
+static void
+describe_mesh(const struct spec_scene_shape *shape, const struct facets *facets,
+	const struct RTCHit *found, struct spec_hit *hit)
+{
+	const uint32_t *corner = shape->index + 3 * (size_t)found->primID;
+	const struct spec_vector *at = facets->corner + 3 * (size_t)found->primID;
+	double u = found->u, v = found->v;
+
+	hit->point = spec_vector_along(
+		spec_vector_along(spec_vector_scale(at[0], 1 - u - v), at[1], u), at[2], v);
+	hit->normal = hit->shading = facets->normal[found->primID];
+	if (shape->normal) {
+		hit->shading =
+			normal_through(&shape->world, blend(shape->normal, corner, u, v));
+		/* pbrt: the vertices' normals say which side is outward. */
+		if (spec_vector_dot(hit->shading, hit->normal) < 0)
+			hit->normal = spec_vector_negate(hit->normal);
+	}
+	hit->tangent = shape->uv ? mesh_tangent(shape, corner, hit->normal)
+				 : spec_frame_about(hit->normal).x;
+	hit->u = u;
+	hit->v = v;
+	if (shape->uv) {
+		hit->u = (1 - u - v) * shape->uv[2 * corner[0]] +
+			 u * shape->uv[2 * corner[1]] + v * shape->uv[2 * corner[2]];
+		hit->v = (1 - u - v) * shape->uv[2 * corner[0] + 1] +
+			 u * shape->uv[2 * corner[1] + 1] +
+			 v * shape->uv[2 * corner[2] + 1];
+	}
+}
+
+int
+spec_world_meet(
+	const struct spec_world *world, const struct spec_ray *ray, struct spec_hit *hit)
+{
+	struct RTCRayHit rayhit = {.ray = embree_ray(ray, INFINITY)};
+	struct journey journey;
+	const struct spec_scene_shape *shape;
+
+	set_out(&journey, ray);
+	rayhit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+	rtcIntersect1(world->tree, &journey.context, &rayhit);
+	if (rayhit.hit.geomID == RTC_INVALID_GEOMETRY_ID)
+		return 0;
+	hit->shape = rayhit.hit.geomID;
+	hit->distance = rayhit.ray.tfar;
+	shape = &world->scene->shape[hit->shape];
+	hit->object = (struct spec_vector){0, 0, 0};
+	if (shape->kind == SPEC_SCENE_MESH)
+		describe_mesh(shape, &world->facets[hit->shape], &rayhit.hit, hit);
+	else
+		describe_quadric(shape, ray, hit);
+	if (shape->reverse_orientation) {
+		hit->normal = spec_vector_negate(hit->normal);
+		hit->shading = spec_vector_negate(hit->shading);
+	}
+	return 1;
+}
+
+int
+spec_world_blocks(
+	const struct spec_world *world, const struct spec_ray *ray, double distance)
+{
+	struct RTCRay embree = embree_ray(ray, distance);
+	struct journey journey;
+
+	set_out(&journey, ray);
+	rtcOccluded1(world->tree, &journey.context, &embree);
+	return embree.tfar < 0;
+}
+
+struct spec_ray
+spec_world_leave(const struct spec_world *world, const struct spec_hit *hit,
+	struct spec_vector direction)
+{
+	const struct spec_vector *p = &hit->point;
+	double size = fabs(p->x) + fabs(p->y) + fabs(p->z) + world->radius;
+	double skin = SKIN * size;
+
+	if (spec_vector_dot(direction, hit->normal) < 0)
+		skin = -skin;
+	return (struct spec_ray){spec_vector_along(*p, hit->normal, skin), direction};
+}

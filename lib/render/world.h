@@ -1,0 +1,51 @@
+/*
+ * The shapes of a scene, for rays to meet, on Embree 3. Spheres and disks are met in double
+ * precision in their own space; triangles in Embree's single precision.
+ */
+#ifndef SPEC_RENDER_WORLD_H
+#define SPEC_RENDER_WORLD_H
+
+#include "base/error.h"
+#include "render/space.h"
+#include "scene/scene.h"
+
+struct spec_ray {
+	struct spec_vector origin, direction; /* direction of length 1 */
+};
+
+struct spec_hit {
+	size_t shape;               /* its number in the scene */
+	double distance;            /* [m] along the ray */
+	struct spec_vector point;   /* [m] world */
+	struct spec_vector normal;  /* geometric, outward, unit */
+	struct spec_vector shading; /* unit, on the geometric normal's side */
+	struct spec_vector tangent; /* dp/du, unit */
+	struct spec_vector
+		object; /* 0 to 1 in the object's bounding box, 0 where it is flat */
+	double u, v;
+};
+
+struct spec_world;
+
+/* scene: must live as long. Errors: Embree's, SPEC_ENOMEM. */
+enum spec_status spec_world_open(struct spec_world **world, const struct spec_scene *scene,
+	struct spec_error *error);
+void spec_world_close(struct spec_world *world);
+
+/* The first shape that a ray meets, into hit, and 1; or 0. */
+int spec_world_meet(
+	const struct spec_world *world, const struct spec_ray *ray, struct spec_hit *hit);
+
+/* Whether something stands between a point and distance [m] along a direction. */
+int spec_world_blocks(
+	const struct spec_world *world, const struct spec_ray *ray, double distance);
+
+/* A ray that leaves a surface at a hit, on the side that direction points to. */
+struct spec_ray spec_world_leave(const struct spec_world *world, const struct spec_hit *hit,
+	struct spec_vector direction);
+
+/* The middle and the radius of a sphere around everything [m]. */
+void spec_world_bounds(
+	const struct spec_world *world, struct spec_vector *middle, double *radius);
+
+#endif
