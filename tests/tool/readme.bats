@@ -11,6 +11,13 @@ card() {
   specconvert --patches 6x4 --patch 96 --gap 12 --grid 380:780:5 ${patches//.spd/} -o card.exr
 }
 
+# The demo's layers, small.
+layers() {
+  cp "$ROOT"/tests/figures/{room,bubble}.pbrt .
+  specrender room.pbrt --grid 400:700:50 --size 32x16 --spp 1 -o room.exr
+  specrender bubble.pbrt --grid 400:700:50 --size 64x36 --spp 1 --defer film -o layers.exr
+}
+
 # The indented lines that begin with a tool's name.
 commands() {
   sed -n 's/^    \(spec[a-z0-9]* .*\)$/\1/p' "$ROOT/README.md"
@@ -18,10 +25,11 @@ commands() {
 
 @test "every command of the README runs" {
   card
+  layers
   commands >script
   [ "$(grep -c . script)" -ge 5 ]
   bash -e -o pipefail script
-  [ -s corner.png ]
+  [ -s rings.png ]
 }
 
 @test "the README's pictures are what the tools make" {
