@@ -116,18 +116,6 @@ take_chart_option(struct job *job, const char *name, const char *value, int *kno
 }
 
 static enum spec_status
-take_extrapolate(struct job *job, const char *value, struct spec_error *error)
-{
-	int constant = strcmp(value, "constant") == 0;
-
-	if (!constant && strcmp(value, "refuse") != 0)
-		return spec_error_set(
-			error, SPEC_EUSAGE, "'%s' is not refuse or constant", value);
-	job->extrapolate = constant ? SPEC_EXTRAPOLATE_CONSTANT : SPEC_EXTRAPOLATE_REFUSE;
-	return SPEC_OK;
-}
-
-static enum spec_status
 take_option(void *state, const char *name, const char *value, struct spec_error *error)
 {
 	struct job *job = state;
@@ -145,7 +133,7 @@ take_option(void *state, const char *name, const char *value, struct spec_error 
 	if (strcmp(name, "polarisation") == 0)
 		return spec_polarisation_parse(value, &job->polarisation, error);
 	if (strcmp(name, "extrapolate") == 0)
-		return take_extrapolate(job, value, error);
+		return spec_extrapolate_parse(value, &job->extrapolate, error);
 	if (strcmp(name, "keep") == 0)
 		job->keep = 1;
 	else if (strcmp(name, "spectrum") == 0)

@@ -24,6 +24,8 @@ static const struct cli_option options[] = {
 	{0, "films", "N", "films along the view ray that are deferred (default: 2)"},
 	{0, "supersample", "N", "N times the resolution each way"},
 	{0, "gbuffer", NULL, "write the first surface's geometry, too"},
+	{0, "extrapolate", "refuse|constant",
+		"reflectances and indices outside their data (default: refuse)"},
 	{0, "seed", "N", "of the random numbers (default: the scene's)"},
 	{0},
 };
@@ -79,8 +81,8 @@ take_option(void *state, const char *name, const char *value, struct spec_error 
 	int known;
 
 	if (strcmp(name, "spp") == 0)
-		return take_whole(
-			value, 1, MOST_SAMPLES, "the samples", &setup->samples, error);
+		return take_whole(value, 1, MOST_SAMPLES, "the number of samples",
+			&setup->samples, error);
 	if (strcmp(name, "size") == 0)
 		return spec_number_parse_size(value, MOST_PIXELS, "the size", &setup->width,
 			&setup->height, error);
@@ -91,11 +93,13 @@ take_option(void *state, const char *name, const char *value, struct spec_error 
 	if (strcmp(name, "defer") == 0)
 		return take_defer(job, value, error);
 	if (strcmp(name, "films") == 0)
-		return take_whole(
-			value, 1, SPEC_RENDER_MOST_FILMS, "the films", &job->films, error);
+		return take_whole(value, 1, SPEC_RENDER_MOST_FILMS, "the number of films",
+			&job->films, error);
 	if (strcmp(name, "supersample") == 0)
 		return take_whole(
 			value, 1, MOST_FINER, "the factor", &setup->supersample, error);
+	if (strcmp(name, "extrapolate") == 0)
+		return spec_extrapolate_parse(value, &setup->extrapolate, error);
 	if (strcmp(name, "seed") == 0) {
 		job->has_seed = 1;
 		return spec_number_parse_whole(

@@ -429,7 +429,7 @@ spec_recipe_check_fixed(const struct spec_recipe *recipe, struct spec_error *err
 	if (recipe->varied == 0)
 		return SPEC_OK;
 	spec_error_set(error, SPEC_EUSAGE,
-		"the thickness of layer %zu is *, and no --thickness says what that is",
+		"the thickness of layer %zu is *, and none is given for it",
 		recipe->varied);
 	spec_error_point(error, recipe->text, recipe->varied_at);
 	return SPEC_EUSAGE;

@@ -9,13 +9,13 @@
 
 enum spec_status
 spec_bands_make(struct spec_bands_grid *bands, const struct spec_grid *grid,
-	struct spec_error *error)
+	enum spec_extrapolate extrapolate, struct spec_error *error)
 {
 	const double *w = grid->wavelength_nm;
 	size_t count = grid->count;
 	double *edge;
 
-	*bands = (struct spec_bands_grid){.count = count};
+	*bands = (struct spec_bands_grid){.count = count, .extrapolate = extrapolate};
 	bands->wavelength_nm = spec_memory_new(count, sizeof(double), "bands", error);
 	bands->edges_nm = edge = spec_memory_new(count + 1, sizeof *edge, "bands", error);
 	if (!bands->wavelength_nm || !edge) {

@@ -12,6 +12,8 @@ struct spec_bands_grid {
 	size_t count;
 	double *wavelength_nm; /* the bands' middles, ascending */
 	double *edges_nm;      /* [count + 1]: values are means between them */
+	enum spec_extrapolate
+		extrapolate; /* of ratios and indices; light ends with its data */
 };
 
 /*
@@ -19,7 +21,8 @@ struct spec_bands_grid {
  * and the last; a sole one is 1 nm wide. SPEC_ENOMEM.
  */
 enum spec_status spec_bands_make(struct spec_bands_grid *bands,
-	const struct spec_grid *grid, struct spec_error *error);
+	const struct spec_grid *grid, enum spec_extrapolate extrapolate,
+	struct spec_error *error);
 void spec_bands_free(struct spec_bands_grid *bands);
 
 /* What a spectrum stands for: an RGB becomes another spectrum in each case. */
@@ -31,7 +34,7 @@ enum spec_bands_use {
 
 /*
  * A scene spectrum in the bands: value[count]. Curves are 0 outside their data for light;
- * elsewhere that is an error (SPEC_ERANGE), whose message names the scene's file and line.
+ * elsewhere the rule of the bands holds. Errors (SPEC_ERANGE) name the scene's file and line.
  */
 enum spec_status spec_bands_sample(const struct spec_bands_grid *bands,
 	const struct spec_scene *scene, const struct spec_scene_spectrum *spectrum,

@@ -1,5 +1,6 @@
 #include "render/light.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -8,6 +9,7 @@
 #include "render/surroundings.h"
 
 #define PI 3.14159265358979323846
+#define ON 2e-6 /* of a sphere's radius: a point so near counts as on it */
 
 /* One thing that may be chosen: a light without a shape, or a shape that shines. */
 struct emitter {
@@ -20,14 +22,15 @@ struct emitter {
 	double area;            /* [m^2] */
 	double *triangle_until; /* [triangles] cumulative area of a mesh's */
 	struct spec_vector
-		*corner; /* [3 * triangles] a corner and two edges, in world space */
-	double radius;   /* of a sphere in world space [m] */
+		*corner;       /* [3 * triangles] a corner and two edges, in world space */
+	unsigned char *inward; /* [triangles] the edges' cross product points inward */
+	double radius;         /* of a sphere in world space [m] */
 	struct spec_vector middle;
 };
 
 struct spec_lights {
 	const struct spec_scene *scene;
-	size_t bands, emitters, surroundings_count;
+	size_t bands, emitters;
 	struct emitter *emitter;
 	size_t *of_shape;    /* [shapes] the emitter, or SPEC_SCENE_NONE */
 	size_t surroundings; /* the emitter of the infinite light, or SPEC_SCENE_NONE */
@@ -65,6 +68,37 @@ corner(const struct spec_scene_shape *shape, size_t triangle, size_t i)
 	return moved(shape->world.m, (struct spec_vector){p[0], p[1], p[2]});
 }
 
+/*
+ * Whether the winding of a triangle in world space shows its inside: outward is as in object
+ * space, also where a space turns left hands to right ones, and as the vertices' normals say.
+ */
+static int
+is_inward(const struct spec_scene_shape *shape, size_t triangle)
+{
+	const double(*m)[4] = shape->world.m;
+	struct spec_vector x = {m[0][0], m[1][0], m[2][0]};
+	struct spec_vector y = {m[0][1], m[1][1], m[2][1]};
+	struct spec_vector z = {m[0][2], m[1][2], m[2][2]};
+	int mirrored = spec_vector_dot(spec_vector_cross(x, y), z) < 0;
+	const uint32_t *index = shape->index + 3 * triangle;
+	struct spec_vector local[3], normal;
+	double sum = 0;
+
+	for (size_t i = 0; i < 3; i++) {
+		const float *p = shape->point + 3 * (size_t)index[i];
+
+		local[i] = (struct spec_vector){p[0], p[1], p[2]};
+	}
+	normal = spec_vector_cross(spec_vector_subtract(local[1], local[0]),
+		spec_vector_subtract(local[2], local[0]));
+	for (size_t i = 0; i < 3 && shape->normal; i++) {
+		const float *n = shape->normal + 3 * (size_t)index[i];
+
+		sum += spec_vector_dot(normal, (struct spec_vector){n[0], n[1], n[2]});
+	}
+	return mirrored != (sum < 0);
+}
+
 static enum spec_status
 measure_mesh(struct emitter *emitter, const struct spec_scene_shape *shape,
 	struct spec_error *error)
@@ -75,7 +109,8 @@ measure_mesh(struct emitter *emitter, const struct spec_scene_shape *shape,
 	emitter->triangle_until = until;
 	emitter->corner = spec_memory_new(
 		shape->triangles, 3 * sizeof *emitter->corner, "triangles", error);
-	if (!until || !emitter->corner)
+	emitter->inward = spec_memory_new(shape->triangles, 1, "triangles", error);
+	if (!until || !emitter->corner || !emitter->inward)
 		return SPEC_ENOMEM;
 	for (size_t i = 0; i < shape->triangles; i++) {
 		struct spec_vector *at = emitter->corner + 3 * i;
@@ -83,6 +118,7 @@ measure_mesh(struct emitter *emitter, const struct spec_scene_shape *shape,
 		at[0] = corner(shape, i, 0);
 		at[1] = spec_vector_subtract(corner(shape, i, 1), at[0]);
 		at[2] = spec_vector_subtract(corner(shape, i, 2), at[0]);
+		emitter->inward[i] = (unsigned char)is_inward(shape, i);
 		emitter->area += spec_vector_length(spec_vector_cross(at[1], at[2])) / 2;
 		until[i] = emitter->area;
 	}
@@ -175,8 +211,14 @@ add_emitter(struct spec_lights *lights, const struct spec_bands_grid *bands, siz
 	if (status == SPEC_OK)
 		status = spec_bands_sample(bands, lights->scene, &from->spectrum,
 			SPEC_BANDS_LIGHT, value, error);
-	for (size_t i = 0; i < bands->count && status == SPEC_OK; i++)
+	for (size_t i = 0; i < bands->count && status == SPEC_OK; i++) {
 		emitter->value[i] = (float)(value[i] * from->scale);
+		if (isfinite(emitter->value[i]))
+			continue;
+		status = spec_error_set(error, SPEC_ERANGE,
+			"the light is too bright at %g nm", bands->wavelength_nm[i]);
+		spec_scene_prefix(lights->scene, &from->place, error);
+	}
 	free(value);
 	if (status == SPEC_OK && from->kind == SPEC_SCENE_AREA)
 		status = measure_area(lights, emitter, error);
@@ -219,17 +261,26 @@ add_lights(struct spec_lights *lights, const struct spec_bands_grid *bands,
 	return status;
 }
 
+/* Half by power, half equally: a small light that is near may matter more than a large sky. */
 static void
 share_chances(struct spec_lights *lights)
 {
 	double whole = 0, until = 0;
+	size_t shining = 0;
 
-	for (size_t i = 0; i < lights->emitters; i++)
-		whole += lights->emitter[i].chance = power_of(lights, &lights->emitter[i]);
 	for (size_t i = 0; i < lights->emitters; i++) {
 		struct emitter *emitter = &lights->emitter[i];
 
-		emitter->chance = whole > 0 ? emitter->chance / whole : 0;
+		emitter->chance = power_of(lights, emitter);
+		whole += emitter->chance;
+		shining += emitter->chance > 0;
+	}
+	for (size_t i = 0; i < lights->emitters; i++) {
+		struct emitter *emitter = &lights->emitter[i];
+
+		if (emitter->chance > 0)
+			emitter->chance =
+				(emitter->chance / whole + 1.0 / (double)shining) / 2;
 		emitter->until = until += emitter->chance;
 	}
 }
@@ -277,6 +328,7 @@ spec_lights_free(struct spec_lights *lights)
 		free(lights->emitter[i].value);
 		free(lights->emitter[i].triangle_until);
 		free(lights->emitter[i].corner);
+		free(lights->emitter[i].inward);
 	}
 	free(lights->emitter);
 	free(lights->of_shape);
@@ -289,17 +341,6 @@ scale_values(float *restrict to, const float *restrict from, float factor, size_
 {
 	for (size_t i = 0; i < count; i++)
 		to[i] = factor * from[i];
-}
-
-/* Whether a space turns left hands to right ones: outward normals stay so in object space. */
-static int
-is_mirrored(const double m[4][4])
-{
-	struct spec_vector x = {m[0][0], m[1][0], m[2][0]};
-	struct spec_vector y = {m[0][1], m[1][1], m[2][1]};
-	struct spec_vector z = {m[0][2], m[1][2], m[2][2]};
-
-	return spec_vector_dot(spec_vector_cross(x, y), z) < 0;
 }
 
 /* A point of an area, uniform over it, and the outward normal there. */
@@ -329,7 +370,7 @@ sample_area(const struct spec_scene_shape *shape, const struct emitter *emitter,
 			spec_vector_along(at[0], at[1], root * (1 - pair[1])), at[2],
 			root * pair[1]);
 		*normal = spec_vector_unit(spec_vector_cross(at[1], at[2]));
-		if (is_mirrored(shape->world.m))
+		if (emitter->inward[low])
 			*normal = spec_vector_negate(*normal);
 	} else {
 		double inner = shape->inner_radius, outer = shape->radius;
@@ -347,7 +388,7 @@ sample_area(const struct spec_scene_shape *shape, const struct emitter *emitter,
 		*normal = spec_vector_negate(*normal);
 }
 
-/* 1 - cosine of the cone that a sphere fills; 1 from within, where all is seen. */
+/* 1 - cosine of the cone that a sphere fills; 2, all directions, from within and on it. */
 static double
 cone_of(const struct emitter *emitter, struct spec_vector point, struct spec_vector *axis)
 {
@@ -355,10 +396,12 @@ cone_of(const struct emitter *emitter, struct spec_vector point, struct spec_vec
 
 	*axis = spec_vector_subtract(emitter->middle, point);
 	distance = spec_vector_length(*axis);
+	if (distance <= emitter->radius * (1 + ON)) {
+		*axis = (struct spec_vector){0, 0, 1};
+		return 2;
+	}
 	sine = emitter->radius / distance;
 	*axis = spec_vector_scale(*axis, 1 / distance);
-	if (!(sine < 1))
-		return 2;
 	return sine * sine / (1 + sqrt(1 - sine * sine));
 }
 
@@ -384,7 +427,7 @@ sample_sphere(const struct emitter *emitter, struct spec_vector point, const dou
 	half = sqrt(fmax(0, half));
 	sample->distance = cone < 2 ? middle - half : middle + half;
 	sample->density = 1 / (2 * PI * cone);
-	return 1;
+	return sample->distance > ON * emitter->radius; /* else outwards, on it */
 }
 
 /* Which side of a surface shines: 0 where none does in this direction. */

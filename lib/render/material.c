@@ -70,7 +70,7 @@ make_film(struct spec_material *material, const struct spec_scene *scene,
 	if (status == SPEC_OK)
 		status = spec_coating_make(&material->coating, &recipe,
 			from->thickness ? &thickness : NULL, bands->wavelength_nm,
-			bands->count, SPEC_EXTRAPOLATE_REFUSE, error);
+			bands->count, bands->extrapolate, error);
 	spec_recipe_free(&recipe);
 	if (status != SPEC_OK)
 		spec_scene_prefix(scene, &from->place, error);
@@ -403,7 +403,7 @@ sample_disc(const struct spec_surface *surface, struct spec_sampler *sampler,
 		to = spec_vector_mirror(eye,
 			(struct spec_vector){sine * cos(angle), sine * sin(angle), cosine});
 	}
-	if (!(to.z > 0) || !(eye.z > 0))
+	if (!(to.z > 0) || !(surface->cosine > 0))
 		return -1;
 	*direction = spec_frame_to_world(&frame, to);
 	density = evaluate_disc(surface, &frame, *direction, weight);
@@ -578,8 +578,9 @@ spec_material_evaluate(
 		return 0;
 	if (material->kind == SPEC_SCENE_CONDUCTOR)
 		return evaluate_conductor(surface, &frame, light, value);
-	if (material->kind == SPEC_SCENE_DIFFRACTIVE)
-		return evaluate_disc(surface, &frame, light, value);
+	if (material->kind == SPEC_SCENE_DIFFRACTIVE) /* dark from behind */
+		return surface->cosine > 0 ? evaluate_disc(surface, &frame, light, value)
+					   : 0;
 	if (material->kind != SPEC_SCENE_DIFFUSE || !(cosine > 0))
 		return 0;
 	scale_values(value, material->reflectance, (float)(cosine / PI), material->bands);

@@ -106,7 +106,6 @@ add_direct(const struct spec_tracer *tracer, const struct spec_surface *surface,
 	float *radiance)
 {
 	struct spec_light_sample light = {.value = room->light};
-	struct spec_ray ray;
 	double density, weight = 1;
 
 	if (!spec_lights_sample(tracer->lights, surface->hit->point, sampler, &light) ||
@@ -115,8 +114,7 @@ add_direct(const struct spec_tracer *tracer, const struct spec_surface *surface,
 	density = spec_material_evaluate(surface, light.direction, room->scattered);
 	if (!(density > 0))
 		return;
-	ray = spec_world_leave(tracer->world, surface->hit, light.direction);
-	if (spec_world_blocks(tracer->world, &ray, light.distance * (1 - 1e-4)))
+	if (spec_world_shades(tracer->world, surface->hit, light.direction, light.distance))
 		return;
 	if (light.density > 0)
 		weight = heuristic(light.density, density);
@@ -124,15 +122,21 @@ add_direct(const struct spec_tracer *tracer, const struct spec_surface *surface,
 		tracer->bands);
 }
 
-/* Light that the path itself runs into. density: of the last scattering; 0: a mirror. */
+/* Where a path was scattered last, with what density; 0: by a mirror, or not at all. */
+struct scattering {
+	struct spec_vector point;
+	double density;
+};
+
+/* Light that the path itself runs into. */
 static void
 add_met(const struct spec_tracer *tracer, const struct spec_hit *hit,
-	const struct spec_ray *ray, double density, struct spec_path_room *room,
-	float *radiance)
+	struct spec_vector direction, const struct scattering *last,
+	struct spec_path_room *room, float *radiance)
 {
-	double other;
-	const float *value = spec_lights_emitted(
-		tracer->lights, hit, ray->origin, ray->direction, &other);
+	double other, density = last->density;
+	const float *value =
+		spec_lights_emitted(tracer->lights, hit, last->point, direction, &other);
 
 	if (value)
 		add_two(radiance, room->throughput, value,
@@ -178,7 +182,7 @@ spec_path_trace(const struct spec_tracer *tracer, const struct spec_ray *first, 
 	float *radiance)
 {
 	struct spec_ray ray = *first;
-	double density = 0;
+	struct scattering last = {ray.origin, 0};
 	struct spec_hit hit;
 
 	fill(room->throughput, 1, tracer->bands);
@@ -187,10 +191,10 @@ spec_path_trace(const struct spec_tracer *tracer, const struct spec_ray *first, 
 		struct spec_vector direction;
 
 		if (!spec_world_meet(tracer->world, &ray, &hit)) {
-			add_surroundings(tracer, &ray, density, room, radiance);
+			add_surroundings(tracer, &ray, last.density, room, radiance);
 			return;
 		}
-		add_met(tracer, &hit, &ray, density, room, radiance);
+		add_met(tracer, &hit, ray.direction, &last, room, radiance);
 		if (depth >= tracer->max_depth)
 			return;
 		surface.material =
@@ -201,10 +205,11 @@ spec_path_trace(const struct spec_tracer *tracer, const struct spec_ray *first, 
 			add_direct(
 				tracer, &surface, without_small, sampler, room, radiance);
 		without_small = 0;
-		density = spec_material_sample(
+		last.density = spec_material_sample(
 			&surface, room->throughput, sampler, &direction, room->weight);
-		if (density < 0)
+		if (last.density < 0)
 			return;
+		last.point = hit.point;
 		multiply(room->throughput, room->weight, tracer->bands);
 		if (!survives(room, tracer->bands, depth, sampler))
 			return;

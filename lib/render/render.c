@@ -248,6 +248,26 @@ settle_setup(struct spec_render *render)
 		setup->samples = scene->samples > 0 ? scene->samples : USUAL_SAMPLES;
 }
 
+/* What a film itself sends out has no layer. */
+static enum spec_status
+refuse_shining_films(const struct spec_render *render, struct spec_error *error)
+{
+	const struct spec_scene *scene = render->scene;
+
+	for (size_t i = 0; i < scene->shapes && render->setup.films > 0; i++) {
+		const struct spec_scene_shape *shape = &scene->shape[i];
+
+		if (shape->light == SPEC_SCENE_NONE ||
+			scene->material[shape->material].kind != SPEC_SCENE_THINFILM)
+			continue;
+		(void)spec_error_set(
+			error, SPEC_EUNSUPPORTED, "a film that shines cannot be deferred");
+		spec_scene_prefix(scene, &shape->place, error);
+		return SPEC_EUNSUPPORTED;
+	}
+	return SPEC_OK;
+}
+
 enum spec_status
 spec_render_open(struct spec_render *render, const struct spec_scene *scene,
 	const struct spec_render_setup *setup, const struct spec_settings *settings,
@@ -257,7 +277,10 @@ spec_render_open(struct spec_render *render, const struct spec_scene *scene,
 
 	*render = (struct spec_render){.setup = *setup, .scene = scene};
 	settle_setup(render);
-	status = spec_bands_make(&render->bands, setup->grid, error);
+	status = refuse_shining_films(render, error);
+	if (status == SPEC_OK)
+		status = spec_bands_make(
+			&render->bands, setup->grid, setup->extrapolate, error);
 	if (status == SPEC_OK)
 		status = spec_world_open(&render->world, scene, error);
 	if (status == SPEC_OK)
@@ -343,15 +366,13 @@ add_lamp_light(struct desk *desk, const struct spec_hit *hit)
 		size_t slot = lamp_slot(render, i);
 		double *direction_sum = desk->sums + slot + render->bands.count, distance;
 		struct spec_vector direction;
-		struct spec_ray ray;
 
 		spec_lights_reach(render->lights, i, hit->point, &direction, &distance,
 			desk->radiance);
 		direction_sum[0] += direction.x;
 		direction_sum[1] += direction.y;
 		direction_sum[2] += direction.z;
-		ray = spec_world_leave(render->world, hit, direction);
-		if (!spec_world_blocks(render->world, &ray, distance * (1 - 1e-4)))
+		if (!spec_world_shades(render->world, hit, direction, distance))
 			add_bands_to(desk, slot);
 	}
 }
@@ -383,7 +404,7 @@ add_sample(struct desk *desk, const struct spec_ray *first, struct spec_sampler 
 	size_t films = (size_t)render->setup.films, film = 0;
 	int met = spec_world_meet(render->world, &ray, &hit);
 
-	while (met && film < films &&
+	while (met && film < films && (int)film < render->tracer.max_depth &&
 		material_at(render, &hit)->kind == SPEC_SCENE_THINFILM) {
 		struct spec_vector eye = spec_vector_negate(ray.direction);
 		size_t slot = film_slot(render, film);
@@ -393,6 +414,10 @@ add_sample(struct desk *desk, const struct spec_ray *first, struct spec_sampler 
 		mirrored = spec_world_leave(
 			render->world, &hit, spec_vector_mirror(eye, hit.shading));
 		add_radiance(desk, &mirrored, (int)film + 1, 0, sampler, slot);
+		/* Nothing comes through a substrate that absorbs. */
+		if (!render->material[render->scene->shape[hit.shape].material]
+				.coating.clear_behind)
+			return;
 		ray = spec_world_leave(render->world, &hit, ray.direction);
 		film++;
 		met = spec_world_meet(render->world, &ray, &hit);

@@ -21,8 +21,9 @@
 
 struct spec_render_setup {
 	const struct spec_grid *grid;
-	int width, height; /* of the whole picture; 0: the scene's */
-	int samples;       /* per pixel; 0: the scene's, else 16 */
+	enum spec_extrapolate extrapolate; /* see struct spec_bands_grid */
+	int width, height;                 /* of the whole picture; 0: the scene's */
+	int samples;                       /* per pixel; 0: the scene's, else 16 */
 	int has_crop;
 	struct spec_window crop; /* pixels of the picture, half-open */
 	long long seed;

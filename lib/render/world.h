@@ -16,6 +16,7 @@ struct spec_ray {
 struct spec_hit {
 	size_t shape;               /* its number in the scene */
 	double distance;            /* [m] along the ray */
+	double size;                /* [m] of the numbers that gave the point: its ulps */
 	struct spec_vector point;   /* [m] world */
 	struct spec_vector normal;  /* geometric, outward, unit */
 	struct spec_vector shading; /* unit, on the geometric normal's side */
@@ -43,6 +44,13 @@ int spec_world_blocks(
 /* A ray that leaves a surface at a hit, on the side that direction points to. */
 struct spec_ray spec_world_leave(const struct spec_world *world, const struct spec_hit *hit,
 	struct spec_vector direction);
+
+/*
+ * Whether something stands between a hit and a light that its point sees in a direction, at
+ * distance [m]; INFINITY: in all of it.
+ */
+int spec_world_shades(const struct spec_world *world, const struct spec_hit *hit,
+	struct spec_vector direction, double distance);
 
 /* The middle and the radius of a sphere around everything [m]. */
 void spec_world_bounds(

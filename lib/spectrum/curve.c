@@ -37,6 +37,19 @@ name_columns(struct spec_curve *curve, struct spec_error *error)
 }
 
 enum spec_status
+spec_extrapolate_parse(
+	const char *text, enum spec_extrapolate *extrapolate, struct spec_error *error)
+{
+	int constant = strcmp(text, "constant") == 0;
+
+	if (!constant && strcmp(text, "refuse") != 0)
+		return spec_error_set(
+			error, SPEC_EUSAGE, "'%s' is not refuse or constant", text);
+	*extrapolate = constant ? SPEC_EXTRAPOLATE_CONSTANT : SPEC_EXTRAPOLATE_REFUSE;
+	return SPEC_OK;
+}
+
+enum spec_status
 spec_curve_new(
 	size_t count, size_t columns, struct spec_curve *curve, struct spec_error *error)
 {

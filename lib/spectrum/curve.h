@@ -24,6 +24,13 @@ enum spec_extrapolate {
 };
 
 /*
+ * "refuse" or "constant", for what cannot be zero, such as an index. Error (SPEC_EUSAGE):
+ * another text.
+ */
+enum spec_status spec_extrapolate_parse(
+	const char *text, enum spec_extrapolate *extrapolate, struct spec_error *error);
+
+/*
  * A curve of count samples in so many columns, for the caller to fill in: wavelengths and
  * values are 0, the texts "", and the columns are called "value", or "value1", "value2" …
  * where there are several. SPEC_ERANGE: count or columns is 0. SPEC_ENOMEM. On an error
