@@ -322,3 +322,110 @@ on_a_broken_pipe() {
   specconvert a.exr | specconvert --crop 0,0,64,1 -o b.exr
   [ "${PIPESTATUS[*]}" = "0 0" ] || complain "${PIPESTATUS[*]}"
 }
+
+# Light layers
+
+soap='air | 1.33 300nm | air'
+
+# layers ARGUMENT...: an image of light layers, from 400 to 700 nm.
+layers() {
+  "$TESTS/layers" --grid 400:700:20 "$@"
+}
+
+@test "layers, their films and a picture of them are the same through pipes as through files" {
+  layers --scene sphere --size 120x100 --samples 2 -o a.exr
+  specfilm --stack "$soap" a.exr -o b.exr
+  spec2rgb b.exr -o files.png
+  layers --scene sphere --size 120x100 --samples 2 | specfilm --stack "$soap" | spec2rgb >pipes.png
+  cmp files.png pipes.png
+  layers --scene disc --size 120x100 -o a.exr
+  specdisc --model orders a.exr -o b.exr
+  spec2rgb b.exr -o files.png
+  layers --scene disc --size 120x100 | specdisc --model orders | spec2rgb >pipes.png
+  cmp files.png pipes.png
+}
+
+@test "films and discs on a pipe are the bytes of -o FILE --compression none" {
+  layers --scene noise --films 2 --size 61x67 -o a.exr
+  specfilm --no-history --stack "$soap" a.exr | cat >pipe.exr
+  specfilm --no-history --stack "$soap" --compression none a.exr -o file.exr
+  cmp pipe.exr file.exr
+  layers --scene noise --lamps 2 --size 61x67 -o a.exr
+  specdisc --no-history a.exr | cat >pipe.exr
+  specdisc --no-history --compression none a.exr -o file.exr
+  cmp pipe.exr file.exr
+  specdisc --no-history --chart 'eye 0..80' --size 61x67 | cat >pipe.exr
+  specdisc --no-history --chart 'eye 0..80' --size 61x67 --compression none -o file.exr
+  cmp pipe.exr file.exr
+}
+
+@test "films and discs are compared from a pipe" {
+  layers --scene disc --size 61x40 -o disc.exr
+  specdisc disc.exr -o want.exr
+  specdisc - < <(cat disc.exr) | specdiff want.exr -
+  layers --scene pair --size 61x40 -o films.exr
+  specfilm --stack "$soap" films.exr -o want.exr
+  specfilm --stack "$soap" - < <(cat films.exr) | specdiff want.exr -
+  code=0
+  specfilm --stack 'air | 1.34 300nm | air' films.exr | specdiff want.exr - >/dev/null || code=$?
+  [ "$code" -eq 1 ]
+}
+
+@test "layers that end early: the line is named, and there is no output file" {
+  layers --size 256x200 --compression none -o a.exr
+  fails_cleanly specfilm --stack "$soap" - -o out.exr < <(head -c 5000000 a.exr)
+  [[ $stderr = 'specfilm: <stdin>: ends early, in line '[0-9]*' of 0..199' ]] || complain "$stderr"
+  fails_cleanly specfilm --stack "$soap" - -o out.exr < <(head -c 5000000 a.exr; kill -KILL "$BASHPID")
+  layers --scene disc --size 256x200 --compression none -o b.exr
+  fails_cleanly specdisc - -o out.exr < <(head -c 5000000 b.exr)
+  [[ $stderr = 'specdisc: <stdin>: ends early, in line '[0-9]*' of 0..199' ]] || complain "$stderr"
+  no_leftovers . a.exr b.exr
+}
+
+@test "downstream of layers that end early all fail" {
+  layers --size 256x200 --compression none -o a.exr
+  head -c 5000000 a.exr >short.exr
+  run bash -c "specfilm --stack '$soap' short.exr 2>err0 | specconvert 2>err1 | spec2rgb -o out.png 2>err2
+    echo \"\${PIPESTATUS[*]}\""
+  [ "$output" = '2 2 2' ] || complain "$output" "$(cat err0 err1 err2)"
+  [ "$(cat err0 err1 err2 | wc -l)" -eq 3 ]
+  [ ! -e out.png ]
+}
+
+@test "a reader that leaves ends specfilm and specdisc silently, with SIGPIPE" {
+  layers --size 256x200 -o a.exr
+  layers --scene disc --size 256x200 -o b.exr
+  for command in "specfilm --stack '$soap' a.exr" 'specdisc b.exr' 'specdisc --chart "eye 0..80"' \
+    "specfilm --stack '$soap' --chart 'angle 0..80'" 'specdisc --orders --track 0.1mm --grid 400:700:1'; do
+    on_a_broken_pipe bash -c "exec $command"
+    [ "$code" -eq 141 ] || complain "exit $code instead of 141: $command"
+    [ ! -s err ] || complain "$(cat err)"
+  done
+}
+
+@test "a closed standard input or output is trouble to specfilm and specdisc" {
+  layers -o a.exr
+  layers --scene disc -o b.exr
+  code=0
+  specfilm --stack "$soap" a.exr >&- 2>err || code=$?
+  specdisc b.exr >&- 2>>err || code=$code$?
+  specdisc --orders >&- 2>>err || code=$code$?
+  specfilm --stack "$soap" --spectrum >&- 2>>err || code=$code$?
+  specfilm --stack "$soap" -o out.exr <&- 2>>err || code=$code$?
+  specdisc -o out.exr <&- 2>>err || code=$code$?
+  [ "$code" = 222222 ] && [ "$(wc -l <err)" -eq 6 ] || complain "$code" "$(cat err)"
+  [ ! -e out.exr ]
+}
+
+@test "memory of films on a pipe does not grow with the height" {
+  for height in 1000 4000; do
+    "$TESTS/layers" --size 128x$height --grid 400:700:20 --compression none -o $height.exr
+    "$TESTS/peak" peak.$height specfilm -j 2 --stack "$soap" - < <(cat $height.exr) | cat >/dev/null
+    rm $height.exr
+  done
+  read -r _ small code <peak.1000
+  [ "$code" -eq 0 ]
+  read -r _ tall code <peak.4000
+  [ "$code" -eq 0 ]
+  [ $((10 * tall)) -le $((11 * small)) ] || complain "$small KiB, at four times the height $tall KiB"
+}

@@ -29,20 +29,42 @@ complain() {
   return 1
 }
 
-# fails_cleanly COMMAND...: exit status 2, one line on stderr that begins with the tool's name,
-# nothing on stdout. The line is left in $stderr. What goes in comes by <FILE.
-fails_cleanly() {
-  local name=${1##*/} out=$BATS_FILE_TMPDIR/stdout err=$BATS_FILE_TMPDIR/stderr said=()
+# fails_in_lines COUNT COMMAND...: exit status 2, so many lines on stderr, the first of which begins
+# with the tool's name, and nothing on stdout. The lines are left in said.
+fails_in_lines() {
+  local count=$1 name=${2##*/} out=$BATS_FILE_TMPDIR/stdout err=$BATS_FILE_TMPDIR/stderr
+  shift
   status=0 stderr=
   "$@" >"$out" 2>"$err" || status=$?
   mapfile said <"$err"
   stderr=${said[0]%$'\n'}
   [ "$status" -eq 2 ] || complain "exit $status instead of 2: $*" "${said[@]}" || return 1
   [ ! -s "$out" ] || complain "something on stdout: $*" || return 1
-  [[ ${#said[@]} -eq 1 && ${said[0]} = *$'\n' ]] ||
-    complain "not one line on stderr: $*" "${said[@]}" || return 1
+  [[ ${#said[@]} -eq $count && ${said[-1]} = *$'\n' ]] ||
+    complain "not $count line(s) on stderr: $*" "${said[@]}" || return 1
   [[ $stderr = "$name: "?* ]] ||
     complain "stderr does not begin with '$name: ': $*" "$stderr" || return 1
+}
+
+# fails_cleanly COMMAND...: exit status 2, one line on stderr that begins with the tool's name,
+# nothing on stdout. The line is left in $stderr. What goes in comes by <FILE.
+fails_cleanly() {
+  local said=()
+  fails_in_lines 1 "$@"
+}
+
+# fails_pointing COLUMN COMMAND...: as fails_cleanly, and then two more lines: one of the arguments
+# behind two blanks, and a caret under its byte COLUMN, counted from 1.
+fails_pointing() {
+  local column=$1 said=() argument shown=
+  shift
+  fails_in_lines 3 "$@" || return 1
+  for argument; do
+    [ "${said[1]}" != "  $argument"$'\n' ] || shown=1
+  done
+  [ -n "$shown" ] || complain "no argument is shown: $*" "${said[@]}" || return 1
+  [ "${said[2]}" = "$(printf '  %*s^' $((column - 1)) '')"$'\n' ] ||
+    complain "the caret is not in column $column: $*" "${said[@]}" || return 1
 }
 
 # no_leftovers FOLDER [FILE...]: there is nothing in it but these files, hidden ones included.
@@ -112,4 +134,76 @@ reverse_lines() {
     done
   } >"$to"
   poke "$to" "$(attribute_at "$to" lineOrder lineOrder)" '\x01'
+}
+
+# channels FILE: the names of its channels, one a line.
+channels() {
+  exrheader "$1" | sed -nE 's/^    (.*), (16|32)-bit.*/\1/p'
+}
+
+# has_channels FILE NAME...: these and no others, in this order.
+has_channels() {
+  local found wanted
+  found=$(channels "$1")
+  shift
+  wanted=$(printf '%s\n' "$@")
+  [ "$found" = "$wanted" ] || complain "has:" "$found" "instead of:" "$wanted"
+}
+
+# header_of FILE: all that exrheader prints but the file's name and the channels.
+header_of() {
+  exrheader "$1" | grep -vE '^file |^    .*, (16|32)-bit'
+}
+
+# sample_at FILE CHANNEL X WIDTH: where that sample begins in an uncompressed image of one line whose
+# samples all have 4 bytes.
+sample_at() {
+  local names number
+  names=$(channels "$1")
+  number=$(grep -nxF -e "$2" <<<"$names") || complain "$1 has no channel '$2'" || return 1
+  echo $(($(wc -c <"$1") - 4 * $4 * ($(wc -l <<<"$names") - ${number%%:*} + 1) + 4 * $3))
+}
+
+# rename_channels FROM TO IN OUT: other names of the same length, in the same order; FROM as sed
+# has it, from the beginning of a name on. Of an uncompressed file.
+rename_channels() {
+  LC_ALL=C sed "s/\\x00$1/\\x00$2/g" "$3" >"$4"
+}
+
+# What pixel_holds, and awk in other places, knows.
+#   wrong(TEXT)
+#   near(NUMBER, WANT, TOLERANCE)     within this share of what is wanted
+#   is(CHANNEL, WANT[, TOLERANCE])    to has this value, within 1e-6 of it or what is given
+#   wavelength(CHANNEL)               in nm, of a band
+statements='
+  function wrong(text) { print text; failed = 1 }
+  function size(a) { return a < 0 ? -a : a }
+  function near(a, want, tolerance) { return size(a - want) <= tolerance * size(want) + 1e-12 }
+  function is(name, want, tolerance) {
+    if (!(name in to)) wrong("no channel " name)
+    else if (!near(to[name], want, tolerance ? tolerance : 1e-6))
+      wrong(sprintf("%s is %.9g instead of %.9g", name, to[name], want))
+  }
+  function wavelength(name) {
+    gsub(/.*S0[.]|.*T[.]|nm/, "", name)
+    sub(/,/, ".", name)
+    return name + 0
+  }
+  BEGIN { pi = atan2(0, -1) }
+'
+
+# pixel_holds IN OUT X,Y AWK: the statements hold for that pixel of two images, from[CHANNEL] and
+# to[CHANNEL] being its values. What a file has in $functions can be called too.
+pixel_holds() {
+  local said
+  said=$(awk "$statements${functions-}"'
+    FNR == 1 { file++ }
+    file == 1 { from[$1] = $2 }
+    file == 2 { to[$1] = $2 }
+    END {
+      if (file != 2) wrong("a file has no such pixel")
+      '"$4"'
+      exit failed
+    }' <("$TESTS/layers" --print "$3" "$1") <("$TESTS/layers" --print "$3" "$2") 2>&1) ||
+    complain "$2, pixel $3:" "$said"
 }
