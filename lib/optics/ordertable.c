@@ -14,13 +14,14 @@ cleaned(double component)
 	return fabs(component) < 1e-15 ? 0 : component;
 }
 
-static void
+/* Returns whether all was printed: a stream in memory that cannot grow sets no error. */
+static int
 print_orders(FILE *file, const struct spec_disc *disc, const double incident[3],
 	double wavelength_nm)
 {
 	double phase = spec_grating_phase(disc->pit_depth_nm, disc->index, wavelength_nm);
 	double outgoing[3];
-	int lowest, highest;
+	int lowest, highest, printed = 1;
 
 	spec_grating_orders(incident, wavelength_nm, disc->track_nm, &lowest, &highest);
 	for (int order = lowest; order <= highest; order++) {
@@ -31,13 +32,15 @@ print_orders(FILE *file, const struct spec_disc *disc, const double incident[3],
 			continue;
 		sine = hypot(outgoing[0], outgoing[1]);
 		/* What rounding leaves of 0, or -0, would have an azimuth, too. */
-		fprintf(file, "%d %.10g %.10g %.10g %.10g\n", order, wavelength_nm,
-			atan2(sine, outgoing[2]) / RADIANS_PER_DEGREE,
-			atan2(cleaned(outgoing[0]), cleaned(outgoing[1])) /
-				RADIANS_PER_DEGREE,
-			spec_grating_lamellar(
-				disc->pit_width_nm / disc->track_nm, phase, order));
+		printed &=
+			fprintf(file, "%d %.10g %.10g %.10g %.10g\n", order, wavelength_nm,
+				atan2(sine, outgoing[2]) / RADIANS_PER_DEGREE,
+				atan2(cleaned(outgoing[0]), cleaned(outgoing[1])) /
+					RADIANS_PER_DEGREE,
+				spec_grating_lamellar(disc->pit_width_nm / disc->track_nm,
+					phase, order)) > 0;
 	}
+	return printed;
 }
 
 enum spec_status
@@ -54,10 +57,9 @@ spec_orders_text(const struct spec_disc *disc, double angle_deg, double azimuth_
 
 	if (!file)
 		return spec_error_set(error, SPEC_ENOMEM, "out of memory for a table");
-	fputs("# order nm angle azimuth efficiency\n", file);
-	for (size_t i = 0; i < count; i++)
-		print_orders(file, disc, incident, wavelength_nm[i]);
-	failed = ferror(file);
+	failed = fputs("# order nm angle azimuth efficiency\n", file) < 0;
+	for (size_t i = 0; i < count && !failed; i++)
+		failed = !print_orders(file, disc, incident, wavelength_nm[i]);
 	if (fclose(file) == 0 && !failed)
 		return SPEC_OK;
 	free(*text);

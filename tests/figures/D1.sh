@@ -1,16 +1,33 @@
 # shellcheck shell=bash
 title 'A compact disc and a DVD'
 from 'T 7.2–7.9 and table 7.1 (Vangorp & Yskout 2005), put right'
-note 'layers, a program of the tests, stands in for the renderer: it makes the light that a lamp sends to a disc of 116 mm. The colours are those of specdisc.'
+note 'The renderer writes the light that a lamp sends to a disc of 116 mm, and its geometry; the colours are those of specdisc.'
+cp "$here/cd.pbrt" .
 
-picture cd-1.png 'layers --scene disc --size 480x360 --samples 2 --eye 0,-0.1,0.32 --lamp 0,0.3,0.2,1 | specdisc --preset cd | spec2rgb -e 6 -o cd-1.png' \
+# seen EYE LAMP: a command that prints the scene with these positions.
+seen() {
+  echo "sed 's/^LookAt.*/LookAt $1  0 0 0  0 0 1/; s/from\".*/from\" [ $2 ]/' cd.pbrt"
+}
+
+picture cd-1.png "$(seen '0 -.1 .32' '0 .3 .2') | specrender --defer disc | specdisc --preset cd | spec2rgb -e 6 -o cd-1.png" \
   'CD from above: the main strip across the tracks, the side strips beside it'
-picture cd-2.png 'layers --scene disc --size 480x360 --samples 2 --eye 0.1,-0.2,0.2 --lamp -0.1,-0.1,0.3,1 | specdisc --preset cd | spec2rgb -e 6 -o cd-2.png' \
-  'CD from the side'
-picture cd-3.png 'layers --scene disc --size 480x360 --samples 2 --eye 0,-0.2,0.25 --lamp 0,0.25,0.22,1 | specdisc --preset cd | spec2rgb -e 6 -o cd-3.png' \
+picture cd-2.png 'specrender --defer disc cd.pbrt -o layers.exr
+specdisc --preset cd layers.exr | spec2rgb -e 6 -o cd-2.png' 'CD from the side'
+picture cd-3.png "$(seen '0 -.2 .25' '0 .25 .22') | specrender --defer disc | specdisc --preset cd | spec2rgb -e 6 -o cd-3.png" \
   "CD near the lamp's mirror image"
-picture dvd.png 'layers --scene disc --size 480x360 --samples 2 --eye 0.1,-0.2,0.2 --lamp -0.1,-0.1,0.3,1 | specdisc --preset dvd | spec2rgb -e 7 -o dvd.png' \
-  'DVD as the second CD: tracks of 740 nm, pits 1400 nm apart'
+picture dvd.png 'specdisc --preset dvd layers.exr | spec2rgb -e 7 -o dvd.png' \
+  'DVD as the second CD, of the same light: tracks of 740 nm, pits 1400 nm apart'
+
+# With one sample for each pixel and the same seed, both ways see the same points.
+for disc in cd dvd; do
+  run "sed 's/\"cd\"/\"$disc\"/' cd.pbrt | specrender --size 240x180 --spp 1 --gbuffer -o straight.exr
+specrender --size 240x180 --spp 1 --defer disc cd.pbrt | specdisc --preset $disc -o folded.exr
+specdiff --metric max,de2000-max --exposure 6 straight.exr folded.exr || [ \$? = 1 ]"
+  check "$disc rendered straight: largest difference to --defer disc | specdisc [W/(m² sr nm)]" \
+    "$(awk '$1 == "max" { print $2 }' <<<"$printed")" at-most 1e-4
+  check "$disc rendered straight: largest difference as colours, CIEDE2000" \
+    "$(awk '$1 == "de2000-max" { print $2 }' <<<"$printed")" at-most 0.01
+done
 
 # A chart's pixel is pi times T 7.9, c0 R_aniso (f^2 + g^2) + c_spec cos^alpha + c_diff, from which
 # T's constants (c0 = .005, c5 = 10, beta = 2, c_diff = .001) give back f^2 and g^2. The eye is so

@@ -723,6 +723,7 @@ layers_refused() {
   done
   for x in 3 5; do
     poke a.exr "$(sample_at a.exr film1.cover $x 7)" '\0\0\0\0'
+    poke a.exr "$(sample_at a.exr film1.mirror.S0.500nm $x 7)" '\0\0\x80\x3f'
   done
   specfilm --stack "$glass" a.exr -o b.exr
   for x in 0 1 2 3 4 5 6; do
