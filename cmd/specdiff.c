@@ -6,6 +6,7 @@
 
 #include "base/number.h"
 #include "base/output.h"
+#include "base/text.h"
 #include "cli/options.h"
 #include "cli/progress.h"
 #include "colour/observer.h"
@@ -344,23 +345,20 @@ static enum spec_status
 print_report(const struct job *job, const struct spec_images *result,
 	const struct spec_image *image, int *different, struct spec_error *error)
 {
-	char *text = NULL;
-	size_t size = 0;
-	FILE *report = open_memstream(&text, &size);
-	enum spec_status status;
+	struct spec_text text;
+	enum spec_status status = spec_text_open(&text, error);
 
-	if (!report)
-		return spec_error_set(error, SPEC_ENOMEM, "out of memory for a report");
-	fputs(result->structure, report);
+	if (status != SPEC_OK)
+		return status;
+	fputs(result->structure, text.stream);
 	*different = result->structure[0] != '\0';
 	if (result->comparable)
-		*different |= print_metrics(report, job, result, image);
-	if (fclose(report) != 0 || !text) {
-		free(text);
-		return spec_error_set(error, SPEC_ENOMEM, "out of memory for a report");
-	}
-	status = spec_output_save(job->settings.output, text, size, error);
-	free(text);
+		*different |= print_metrics(text.stream, job, result, image);
+	status = spec_text_close(&text, error);
+	if (status == SPEC_OK)
+		status = spec_output_save(
+			job->settings.output, text.bytes, text.size, error);
+	spec_text_free(&text);
 	return status;
 }
 

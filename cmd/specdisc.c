@@ -291,14 +291,14 @@ static enum spec_status
 print_orders(const struct job *job, const struct spec_disc *disc,
 	const struct spec_grid *grid, struct spec_error *error)
 {
-	char *text = NULL;
-	size_t size = 0;
+	struct spec_text text = {0};
 	enum spec_status status = spec_orders_text(disc, job->angle_deg, job->azimuth_deg,
-		grid->wavelength_nm, grid->count, &text, &size, error);
+		grid->wavelength_nm, grid->count, &text, error);
 
 	if (status == SPEC_OK)
-		status = spec_output_save(job->settings.output, text, size, error);
-	free(text);
+		status = spec_output_save(
+			job->settings.output, text.bytes, text.size, error);
+	spec_text_free(&text);
 	return status;
 }
 

@@ -5,6 +5,7 @@
 #include <stddef.h>
 
 #include "base/error.h"
+#include "base/text.h"
 #include "optics/disc.h"
 
 /*
@@ -12,11 +13,10 @@
  * angle azimuth efficiency", after a line that says so. Light comes from angle_deg (0 to
  * 90) to the normal; azimuth_deg is that of the plane of incidence, 0 across the tracks, 90
  * along them. The order's angle is to the normal too, and its azimuth goes from -180 to 180.
- * Efficiencies are those of spec_grating_lamellar. *text: newly allocated, of *size bytes.
- * Error: SPEC_ENOMEM.
+ * Efficiencies are those of spec_grating_lamellar. text: to be freed. Error: SPEC_ENOMEM.
  */
 enum spec_status spec_orders_text(const struct spec_disc *disc, double angle_deg,
-	double azimuth_deg, const double *wavelength_nm, size_t count, char **text,
-	size_t *size, struct spec_error *error);
+	double azimuth_deg, const double *wavelength_nm, size_t count,
+	struct spec_text *text, struct spec_error *error);
 
 #endif

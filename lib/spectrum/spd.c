@@ -9,6 +9,7 @@
 #include "base/memory.h"
 #include "base/number.h"
 #include "base/output.h"
+#include "base/text.h"
 
 #define FIRST_COLUMN "wavelength_nm"
 #define BLANKS " \t"
@@ -529,18 +530,16 @@ spec_spd_write(FILE *file, const struct spec_curve *curve, struct spec_error *er
 enum spec_status
 spec_spd_save(const char *path, const struct spec_curve *curve, struct spec_error *error)
 {
-	char *text = NULL;
-	size_t size = 0;
-	FILE *memory = open_memstream(&text, &size);
-	enum spec_status status;
+	struct spec_text text;
+	enum spec_status status = spec_text_open(&text, error);
 
-	if (!memory)
-		return spec_error_set(error, SPEC_ENOMEM, "out of memory for a text");
-	status = spec_spd_write(memory, curve, error);
-	if ((fclose(memory) != 0 || !text) && status == SPEC_OK)
-		status = spec_error_set(error, SPEC_ENOMEM, "out of memory for a text");
+	if (status != SPEC_OK)
+		return status;
+	status = spec_spd_write(text.stream, curve, error);
 	if (status == SPEC_OK)
-		status = spec_output_save(path, text, size, error);
-	free(text);
+		status = spec_text_close(&text, error);
+	if (status == SPEC_OK)
+		status = spec_output_save(path, text.bytes, text.size, error);
+	spec_text_free(&text);
 	return status;
 }
