@@ -138,7 +138,8 @@ $(DATA):
 	ln -sfn $(CURDIR)/spectra $@
 
 # What traces rays alone needs Embree, which costs every other program's start.
-$(BUILD)/bin/specrender $(BUILD)/tests/render: LDLIBS += -lembree3
+TRACERS = bin/specrender $(addprefix tests/,render material light sampler world)
+$(TRACERS:%=$(BUILD)/%): LDLIBS += -lembree3
 
 LINK = $(QUIET)$(CC) $(ALLLDFLAGS) -o $@ $^ $(LDLIBS)
 

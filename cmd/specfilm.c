@@ -212,12 +212,14 @@ print_spectrum(
 {
 	static const char *const light[] = {"unpolarised", "s", "p"};
 	struct spec_curve curve = {0};
-	char title[256];
+	const char *thickness = job->film[0].option[THICKNESS];
+	char title[512];
 	enum spec_status status = spec_coating_curve(coating,
 		spec_film_cosine(job->angle_deg), job->polarisation, &curve, error);
 
-	snprintf(title, sizeof title, "%s, %g deg, %s light", job->film[0].option[STACK],
-		job->angle_deg, light[job->polarisation]);
+	snprintf(title, sizeof title, "%.380s%s%.40s, %g deg, %s light",
+		job->film[0].option[STACK], thickness ? ", * " : "",
+		thickness ? thickness : "", job->angle_deg, light[job->polarisation]);
 	spec_error_plain(title);
 	if (status == SPEC_OK)
 		status = spec_curve_set_text(&curve.title, title, error);
@@ -228,25 +230,26 @@ print_spectrum(
 }
 
 static enum spec_status
-draw_chart(struct job *job, struct spec_chart *chart, const struct spec_coating *coating,
-	int argc, char **argv, struct spec_error *error)
+draw_chart(struct job *job, const struct spec_chart *axes,
+	const struct spec_coating *coating, int argc, char **argv, struct spec_error *error)
 {
 	struct spec_film_chart film = {coating, job->polarisation, job->share};
+	struct spec_chart chart = *axes;
 	struct spec_image image;
 	enum spec_status status;
 
-	chart->width = job->width;
-	chart->height = job->height;
-	chart->quantity = spec_film_share_name(job->share);
-	chart->half = job->settings.half;
-	chart->evaluate = spec_film_chart_evaluate;
-	chart->state = &film;
-	status = spec_chart_image(chart, &image, error);
+	chart.width = job->width;
+	chart.height = job->height;
+	chart.quantity = spec_film_share_name(job->share);
+	chart.half = job->settings.half;
+	chart.evaluate = spec_film_chart_evaluate;
+	chart.state = &film;
+	status = spec_chart_image(&chart, &image, error);
 	if (status == SPEC_OK && job->settings.history)
 		status = spec_image_add_history(&image, argc, argv, error);
 	if (status == SPEC_OK)
 		status = spec_chart_run(
-			chart, &image, &job->settings, &job->overflows, error);
+			&chart, &image, &job->settings, &job->overflows, error);
 	spec_image_clear(&image);
 	return status;
 }
@@ -362,6 +365,14 @@ film_image(
 
 	for (size_t i = 0; i < job->films && status == SPEC_OK; i++)
 		status = take_surface(job, i, surface, error);
+	/* What is wrong with the command shows before a pipe is waited for. */
+	for (size_t i = 0; i < job->films && status == SPEC_OK; i++) {
+		struct spec_recipe recipe;
+
+		status = spec_recipe_parse(job->film[i].option[STACK], &recipe, error);
+		if (status == SPEC_OK)
+			spec_recipe_free(&recipe);
+	}
 	if (status == SPEC_OK)
 		status = spec_reader_open(
 			&reader, job->input ? job->input : "-", &job->settings, error);

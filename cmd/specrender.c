@@ -131,15 +131,15 @@ render_scene(struct job *job, const struct spec_scene *scene, int argc, char **a
 	struct spec_error *error)
 {
 	struct spec_grid grid = {0};
+	struct spec_render_setup setup = job->setup;
 	struct spec_render render = {0};
 	enum spec_status status = spec_grid_parse(job->grid, &grid, error);
 
-	job->setup.grid = &grid;
+	setup.grid = &grid;
 	if (!job->has_seed)
-		job->setup.seed = scene->seed;
+		setup.seed = scene->seed;
 	if (status == SPEC_OK)
-		status = spec_render_open(
-			&render, scene, &job->setup, &job->settings, error);
+		status = spec_render_open(&render, scene, &setup, &job->settings, error);
 	if (status == SPEC_OK && job->settings.history)
 		status = spec_image_add_history(&render.image, argc, argv, error);
 	if (status == SPEC_OK)

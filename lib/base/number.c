@@ -212,7 +212,7 @@ spec_number_parse_size(const char *text, long long most, const char *what, int *
 {
 	size_t length = strcspn(text, "x");
 	char first[32];
-	long long value[2];
+	long long value[2] = {0};
 	enum spec_status status;
 
 	if (text[length] != 'x' || length >= sizeof first)

@@ -42,7 +42,7 @@ spec_layers_is_film(const struct spec_channel *channel)
 	const char *rest;
 
 	return number_of(channel->name, "film", &rest) > 0 ||
-	       after(channel->name, "through.S0.");
+	       after(channel->name, "through.");
 }
 
 int
@@ -135,6 +135,16 @@ take_band(size_t *bands, const struct spec_image *image, const char *suffix, siz
 	return SPEC_OK;
 }
 
+/* Whether a name is that of a band of light, in any of the namings that are read. */
+static int
+names_light(const char *name)
+{
+	struct spec_channel channel = {.name = (char *)(uintptr_t)name}; /* only read */
+
+	return spec_names_read(&channel, NULL) == SPEC_OK &&
+	       channel.role == SPEC_ROLE_EMISSIVE;
+}
+
 static size_t *
 new_bands(const struct spec_image *image, struct spec_error *error)
 {
@@ -195,11 +205,11 @@ take_channel(struct spec_layers *layers, const struct spec_image *image, size_t 
 	} else if ((number = number_of(text, "lamp", &rest)) > 0) {
 		struct spec_lamp_layer *lamp = &layers->lamp[number - 1];
 
-		if (after(rest, "S0."))
+		if (names_light(rest))
 			return take_band(
 				lamp->irradiance, image, rest, channel, name, error);
 		(void)take_component(lamp->direction, "D", rest, channel);
-	} else if (after(text, "through.S0.")) {
+	} else if (after(text, "through.")) {
 		if (!layers->through)
 			layers->through = new_bands(image, error);
 		if (!layers->through)

@@ -512,7 +512,7 @@ kernel(void *state, struct spec_stream_worker *worker, int line, struct spec_err
 	_MM_SET_FLUSH_ZERO_MODE(_MM_FLUSH_ZERO_ON);
 	_MM_SET_DENORMALS_ZERO_MODE(_MM_DENORMALS_ZERO_ON);
 	desk.sums = worker->scratch;
-	desk.radiance = (float *)(desk.sums + render->slots);
+	desk.radiance = (float *)(void *)(desk.sums + render->slots);
 	desk.room = spec_path_room_new(render->bands.count, error);
 	if (!desk.room)
 		return SPEC_ENOMEM;

@@ -254,7 +254,7 @@ quickly() {
   for distance in 1cm 1e-300nm; do
     quickly --track $distance --orders --grid 500:500:1
     for model in composite orders; do
-      quickly --track $distance --pit $distance --model $model --chart 'eye 0..9' --size 20x20
+      quickly --track $distance --pit $distance --model $model --chart 'eye 0..9' --size 5x5 --grid 500:600:50
       quickly --track $distance --pit $distance --model $model a.exr
     done
   done
@@ -669,6 +669,17 @@ negated() {
   negated a.exr c.exr Tan.X Tan.Y Tan.Z
   specdisc c.exr -o d.exr
   pixel_holds b.exr d.exr 0,0 'is("S0.500,000000nm", from["S0.500,000000nm"])'
+}
+
+@test "the normal is Ns, and N where there is none" {
+  disc_image n.exr --size 1x1
+  disc_image ns.exr --size 1x1 --channel Ns.Z --channel Ns.X --channel Ns.Y
+  for file in n ns; do
+    specdisc --preset vinyl $file.exr -o out.exr
+    pixel_holds $file.exr out.exr 0,0 '
+      disc("vinyl"); look(1)
+      is("S0.500,000000nm", from["S0.500nm"] + 0.04 * exp(-10 * u * u) * lit * from["lamp1.S0.500nm"])'
+  done
 }
 
 @test "vectors that are 0 or not finite give nothing" {

@@ -458,8 +458,8 @@ test_varied(void **state)
 	assert_int_equal(layer, 3);
 	assert_true(isnan(recipe.layer[layer].thickness_nm));
 	assert_int_equal(spec_recipe_check_fixed(&recipe, &error), SPEC_EUSAGE);
-	assert_string_equal(error.message,
-		"the thickness of layer 3 is *, and none is given for it");
+	assert_string_equal(
+		error.message, "the thickness of layer 3 is *, and none is given for it");
 	assert_string_equal(error.place, "  air | (1.4 1)^2 | 1.33 * | air\n"
 					 "                         ^");
 	assert_int_equal(spec_recipe_check_fixed(&recipe, NULL), SPEC_EUSAGE);
