@@ -229,6 +229,9 @@ fit_memory(struct run *run, struct spec_error *error)
 			BLOCK_COPIES;
 	each += (long long)stream->payload_bytes * run->block_lines;
 	each += (long long)stream->scratch_bytes;
+	if (stream->readers == 0)
+		each += (long long)spec_writer_line_bytes(stream->writer) *
+			spec_writer_chunk_lines(stream->writer);
 	if (each > limit)
 		return spec_error_set(error, SPEC_ERANGE,
 			"%s: %lld lines at a time need %lld bytes, more than the limit of "

@@ -325,6 +325,12 @@ spec_writer_chunk_lines(const struct spec_writer *writer)
 	return writer->chunk_lines;
 }
 
+size_t
+spec_writer_line_bytes(const struct spec_writer *writer)
+{
+	return writer->line_bytes;
+}
+
 unsigned long long
 spec_writer_overflows(const struct spec_writer *writer)
 {

@@ -29,8 +29,9 @@ enum spec_status spec_writer_open(struct spec_writer **writer,
 enum spec_status spec_writer_finish(struct spec_writer *writer, struct spec_error *error);
 void spec_writer_close(struct spec_writer *writer);
 
-/* Lines that are encoded together. */
+/* Lines that are encoded together, and bytes of one before that. */
 int spec_writer_chunk_lines(const struct spec_writer *writer);
+size_t spec_writer_line_bytes(const struct spec_writer *writer);
 
 /* Finite samples that became infinite as HALF, once all packers are closed. */
 unsigned long long spec_writer_overflows(const struct spec_writer *writer);

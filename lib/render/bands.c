@@ -45,7 +45,7 @@ sample_curve(const struct spec_bands_grid *bands, const struct spec_curve *curve
 	enum spec_bands_use use, double *value, struct spec_error *error)
 {
 	enum spec_extrapolate rule =
-		use == SPEC_BANDS_LIGHT ? SPEC_EXTRAPOLATE_ZERO : SPEC_EXTRAPOLATE_REFUSE;
+		use == SPEC_BANDS_LIGHT ? SPEC_EXTRAPOLATE_ZERO : bands->extrapolate;
 
 	/* The outer edges may reach beyond data that the bands' middles do not leave. */
 	if (use == SPEC_BANDS_RATIO) {

@@ -226,6 +226,25 @@ add_emitter(struct spec_lights *lights, const struct spec_bands_grid *bands, siz
 }
 
 static enum spec_status
+read_picture(struct spec_lights *lights, const struct spec_scene_light *light,
+	const struct spec_bands_grid *bands, const struct spec_settings *settings,
+	struct spec_error *error)
+{
+	double scale;
+	enum spec_status status = SPEC_OK;
+
+	if (!is_similar(light->world.m, &scale))
+		status = spec_error_set(error, SPEC_EUNSUPPORTED,
+			"a picture of surroundings cannot be stretched");
+	if (status == SPEC_OK)
+		status = spec_surroundings_read(
+			&lights->picture, light->picture, bands, settings, error);
+	if (status != SPEC_OK)
+		spec_scene_prefix(lights->scene, &light->place, error);
+	return status;
+}
+
+static enum spec_status
 add_lights(struct spec_lights *lights, const struct spec_bands_grid *bands,
 	const struct spec_settings *settings, struct spec_error *error)
 {
@@ -247,8 +266,7 @@ add_lights(struct spec_lights *lights, const struct spec_bands_grid *bands,
 		if (light->kind == SPEC_SCENE_INFINITE)
 			lights->surroundings = lights->emitters;
 		if (light->picture)
-			status = spec_surroundings_read(
-				&lights->picture, light->picture, bands, settings, error);
+			status = read_picture(lights, light, bands, settings, error);
 		if (status == SPEC_OK)
 			status = add_emitter(lights, bands, i, SPEC_SCENE_NONE, error);
 	}
@@ -478,9 +496,11 @@ sample_surroundings(const struct spec_lights *lights, const struct emitter *emit
 	struct spec_vector local = {r * cos(angle), r * sin(angle), z};
 
 	sample->density = 1 / (4 * PI);
-	if (lights->picture.pixel)
+	sample->direction = local;
+	if (lights->picture.pixel) {
 		sample->density = spec_surroundings_sample(&lights->picture, pair, &local);
-	sample->direction = spec_vector_unit(turned(light->world.m, local));
+		sample->direction = spec_vector_unit(turned(light->world.m, local));
+	}
 	sample->distance = INFINITY;
 	return sample->density > 0;
 }

@@ -89,10 +89,14 @@ make_disc(struct spec_material *material, const struct spec_scene_material *from
 	return SPEC_OK;
 }
 
-static double
-alpha_of(double roughness)
+/* Smooth both ways, or rough both ways, if little. */
+static void
+set_alpha(double alpha[2], const double roughness[2])
 {
-	return roughness < SMOOTHEST ? 0 : roughness;
+	int smooth = roughness[0] < SMOOTHEST && roughness[1] < SMOOTHEST;
+
+	for (int i = 0; i < 2; i++)
+		alpha[i] = smooth ? 0 : fmax(roughness[i], SMOOTHEST);
 }
 
 static enum spec_status
@@ -106,8 +110,7 @@ make_material(struct spec_material *material, const struct spec_scene *scene,
 	material->bands = count;
 	material->wavelength_nm = bands->wavelength_nm;
 	material->edges_nm = bands->edges_nm;
-	material->alpha[0] = alpha_of(from->roughness[0]);
-	material->alpha[1] = alpha_of(from->roughness[1]);
+	set_alpha(material->alpha, from->roughness);
 	material->reflectance = spec_memory_new(count, sizeof(float), "bands", error);
 	material->eta = spec_memory_new(count, sizeof(double), "bands", error);
 	material->k = spec_memory_new(count, sizeof(double), "bands", error);
@@ -163,7 +166,7 @@ spec_materials_free(struct spec_material *list, size_t count)
 static int
 is_smooth(const struct spec_material *material)
 {
-	return material->alpha[0] == 0 || material->alpha[1] == 0;
+	return material->alpha[0] == 0;
 }
 
 int

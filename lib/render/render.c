@@ -14,6 +14,8 @@
 #define USUAL_SAMPLES 16
 #define USUAL_DEPTH 5
 
+enum { SURFACE_IDS = SPEC_RENDER_MOST_FILMS, OTHER_IDS, ALL_IDS };
+
 /* --- where what stands in a pixel's sums: S0, through, films, the surface, lamps --- */
 
 static size_t
@@ -40,6 +42,16 @@ static size_t
 lamp_slot(const struct spec_render *render, size_t lamp)
 {
 	return surface_slot(render) + SPEC_SUMS_GEOMETRY + lamp * (render->bands.count + 3);
+}
+
+/*
+ * Where a deferred disc is in the pixel, its geometry is the pixel's; else that of the other
+ * surfaces, which is summed up behind all that is written.
+ */
+static size_t
+other_slot(const struct spec_render *render)
+{
+	return lamp_slot(render, render->lamps);
 }
 
 static int
@@ -176,7 +188,7 @@ set_slots(struct spec_render *render, struct spec_error *error)
 		snprintf(prefix, sizeof prefix, "lamp%zu.", i + 1);
 		status = set_band_slots(render, prefix, lamp_slot(render, i), error);
 	}
-	render->slots = lamp_slot(render, render->lamps);
+	render->slots = other_slot(render) + SPEC_SUMS_GEOMETRY;
 	return status;
 }
 
@@ -324,10 +336,9 @@ spec_render_close(struct spec_render *render)
 struct desk {
 	struct spec_render *render;
 	struct spec_path_room *room;
-	struct spec_sums_ids
-		ids[SPEC_RENDER_MOST_FILMS + 1]; /* the surface's is the last */
-	float *radiance;                         /* [bands] */
-	double *sums;                            /* [slots] */
+	struct spec_sums_ids ids[ALL_IDS]; /* of each film, the surface, the others */
+	float *radiance;                   /* [bands] */
+	double *sums;                      /* [slots] */
 };
 
 static void
@@ -387,12 +398,25 @@ add_plain(struct desk *desk, const struct spec_ray *ray, const struct spec_hit *
 		       material_at(render, hit)->kind == SPEC_SCENE_DIFFRACTIVE;
 
 	if (hit && (deferred || render->setup.geometry))
-		spec_sums_add(desk->sums + surface_slot(render),
-			&desk->ids[SPEC_RENDER_MOST_FILMS], hit,
+		spec_sums_add(
+			desk->sums + (deferred ? surface_slot(render) : other_slot(render)),
+			&desk->ids[deferred ? SURFACE_IDS : OTHER_IDS], hit,
 			spec_vector_negate(ray->direction), material_at(render, hit)->id);
 	if (deferred)
 		add_lamp_light(desk, hit);
 	add_radiance(desk, ray, 0, deferred, sampler, 0);
+}
+
+/* Not from within a substrate that absorbs: all is dark there. */
+static int
+is_deferred_film(const struct spec_render *render, const struct spec_hit *hit,
+	const struct spec_ray *ray)
+{
+	size_t material = render->scene->shape[hit->shape].material;
+
+	return render->scene->material[material].kind == SPEC_SCENE_THINFILM &&
+	       (spec_vector_dot(hit->shading, ray->direction) <= 0 ||
+		       render->material[material].coating.clear_behind);
 }
 
 static void
@@ -405,7 +429,7 @@ add_sample(struct desk *desk, const struct spec_ray *first, struct spec_sampler 
 	int met = spec_world_meet(render->world, &ray, &hit);
 
 	while (met && film < films && (int)film < render->tracer.max_depth &&
-		material_at(render, &hit)->kind == SPEC_SCENE_THINFILM) {
+		is_deferred_film(render, &hit, &ray)) {
 		struct spec_vector eye = spec_vector_negate(ray.direction);
 		size_t slot = film_slot(render, film);
 
@@ -429,6 +453,20 @@ add_sample(struct desk *desk, const struct spec_ray *first, struct spec_sampler 
 }
 
 static void
+finish_surface(struct desk *desk, unsigned samples)
+{
+	double *surface = desk->sums + surface_slot(desk->render);
+	const double *other = desk->sums + other_slot(desk->render);
+	size_t ids = SURFACE_IDS;
+
+	if (surface[SPEC_SUMS_COVER] == 0) {
+		memcpy(surface, other, SPEC_SUMS_GEOMETRY * sizeof *surface);
+		ids = OTHER_IDS;
+	}
+	spec_sums_finish(surface, &desk->ids[ids], samples);
+}
+
+static void
 finish_pixel(struct desk *desk, unsigned samples)
 {
 	const struct spec_render *render = desk->render;
@@ -444,8 +482,7 @@ finish_pixel(struct desk *desk, unsigned samples)
 			sum[j] *= share;
 		spec_sums_finish(sum + bands, &desk->ids[i], samples);
 	}
-	spec_sums_finish(desk->sums + surface_slot(render),
-		&desk->ids[SPEC_RENDER_MOST_FILMS], samples);
+	finish_surface(desk, samples);
 	for (size_t i = 0; i < render->lamps; i++) {
 		double *sum = desk->sums + lamp_slot(render, i);
 		struct spec_vector d = spec_vector_unit(
@@ -467,7 +504,7 @@ render_pixel(struct desk *desk, int x, int y)
 	struct spec_sampler sampler;
 
 	memset(desk->sums, 0, render->slots * sizeof *desk->sums);
-	for (size_t i = 0; i <= SPEC_RENDER_MOST_FILMS; i++)
+	for (size_t i = 0; i < ALL_IDS; i++)
 		desk->ids[i].ids = 0;
 	for (unsigned i = 0; i < samples; i++) {
 		struct spec_ray ray;

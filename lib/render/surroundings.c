@@ -153,13 +153,55 @@ average(struct spec_surroundings *s)
 	s->mean = whole / (sines * (double)s->width);
 }
 
-/* Shares of rows, and of pixels in each row: by the mean over bands and the solid angle. */
-static void
-share_out(struct spec_surroundings *s)
+static double
+at_column(const double *column, size_t width, size_t x)
 {
+	return column[x % width + 1];
+}
+
+/*
+ * The mean of 3 x 3 pixels in place of each: light is linear between their middles, and a
+ * pixel beside the sun has some of it.
+ */
+static enum spec_status
+blur(struct spec_surroundings *s, struct spec_error *error)
+{
+	size_t w = s->width, h = s->height;
+	double *sharp = spec_memory_new(h, (w + 1) * sizeof *sharp, "pixels", error);
+
+	if (!sharp)
+		return SPEC_ENOMEM;
+	memcpy(sharp, s->column, h * (w + 1) * sizeof *sharp);
+	for (size_t y = 0; y < h; y++) {
+		for (size_t x = 0; x < w; x++) {
+			double sum = 0;
+
+			for (size_t i = 0; i < 3; i++) {
+				size_t row = y + i > 0 ? y + i - 1 : 0;
+				const double *from =
+					sharp + (row < h ? row : h - 1) * (w + 1);
+
+				sum += at_column(from, w, x + w - 1) +
+				       at_column(from, w, x) + at_column(from, w, x + 1);
+			}
+			s->column[y * (w + 1) + x + 1] = sum / 9;
+		}
+	}
+	free(sharp);
+	return SPEC_OK;
+}
+
+/* Shares of rows, and of pixels in each row: by the mean over bands and the solid angle. */
+static enum spec_status
+share_out(struct spec_surroundings *s, struct spec_error *error)
+{
+	enum spec_status status;
 	double least;
 
 	average(s);
+	status = blur(s, error);
+	if (status != SPEC_OK)
+		return status;
 	least = s->mean > 0 ? FLOOR * s->mean : 1; /* all black: any share will do */
 	for (size_t y = 0; y < s->height; y++) {
 		double *column = s->column + y * (s->width + 1);
@@ -169,6 +211,7 @@ share_out(struct spec_surroundings *s)
 		s->row[y + 1] = accumulate(column, s->width) * sine_of_row(s, y);
 	}
 	(void)accumulate(s->row, s->height);
+	return SPEC_OK;
 }
 
 enum spec_status
@@ -195,8 +238,8 @@ spec_surroundings_read(struct spec_surroundings *s, const char *path,
 	if (status == SPEC_OK)
 		status = read_lines(s, reader, bands, error);
 	if (status == SPEC_OK)
-		share_out(s);
-	else
+		status = share_out(s, error);
+	if (status != SPEC_OK)
 		spec_surroundings_free(s);
 	spec_reader_close(reader);
 	return status;

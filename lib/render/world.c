@@ -571,6 +571,20 @@ describe_mesh(const struct spec_scene_shape *shape, const struct facets *facets,
 	}
 }
 
+/* A shading normal that looks away where the surface does not is bent till it grazes. */
+static void
+straighten(struct spec_hit *hit, struct spec_vector direction)
+{
+	double side = spec_vector_dot(direction, hit->normal);
+	double seen = spec_vector_dot(direction, hit->shading);
+
+	if (side * seen >= 0)
+		return;
+	/* A little further than to the right angle, against rounding. */
+	hit->shading = spec_vector_unit(
+		spec_vector_along(hit->shading, direction, copysign(1e-6, side) - seen));
+}
+
 int
 spec_world_meet(
 	const struct spec_world *world, const struct spec_ray *ray, struct spec_hit *hit)
@@ -597,6 +611,8 @@ spec_world_meet(
 		hit->normal = spec_vector_negate(hit->normal);
 		hit->shading = spec_vector_negate(hit->shading);
 	}
+	if (shape->normal)
+		straighten(hit, ray->direction);
 	return 1;
 }
 
