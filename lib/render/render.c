@@ -426,8 +426,13 @@ add_sample(struct desk *desk, const struct spec_ray *first, struct spec_sampler 
 	struct spec_ray ray = *first, mirrored;
 	struct spec_hit hit;
 	size_t films = (size_t)render->setup.films, film = 0;
-	int met = spec_world_meet(render->world, &ray, &hit);
+	int met;
 
+	if (films == 0 && !has_surface(render)) {
+		add_radiance(desk, &ray, 0, 0, sampler, 0);
+		return;
+	}
+	met = spec_world_meet(render->world, &ray, &hit);
 	while (met && film < films && (int)film < render->tracer.max_depth &&
 		is_deferred_film(render, &hit, &ray)) {
 		struct spec_vector eye = spec_vector_negate(ray.direction);

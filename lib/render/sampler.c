@@ -9,13 +9,19 @@ mix(uint64_t z)
 	return z ^ (z >> 31);
 }
 
+static uint64_t
+reverse_long(uint64_t x)
+{
+	x = __builtin_bswap64(x);
+	x = (x & 0x0f0f0f0f0f0f0f0f) << 4 | (x >> 4 & 0x0f0f0f0f0f0f0f0f);
+	x = (x & 0x3333333333333333) << 2 | (x >> 2 & 0x3333333333333333);
+	return (x & 0x5555555555555555) << 1 | (x >> 1 & 0x5555555555555555);
+}
+
 static uint32_t
 reverse(uint32_t x)
 {
-	x = __builtin_bswap32(x);
-	x = (x & 0x0f0f0f0f) << 4 | (x >> 4 & 0x0f0f0f0f);
-	x = (x & 0x33333333) << 2 | (x >> 2 & 0x33333333);
-	return (x & 0x55555555) << 1 | (x >> 1 & 0x55555555);
+	return (uint32_t)(reverse_long(x) >> 32);
 }
 
 /* Burley's listing 1 with Vegdahl's constants (2021): each bit depends on those above it. */
@@ -30,24 +36,15 @@ scramble_reversed(uint32_t x, uint32_t seed)
 	return x;
 }
 
+/* Sobol's second dimension, reversed, from an index: Pascal's triangle modulo 2, by halves. */
 static uint32_t
-scramble(uint32_t x, uint32_t seed)
+second_reversed(uint32_t index)
 {
-	return reverse(scramble_reversed(reverse(x), seed));
-}
-
-/*
- * Sobol's second dimension, from the reversed index, which is the first: Pascal's triangle
- * modulo 2, by halves.
- */
-static uint32_t
-second(uint32_t first)
-{
-	first ^= first << 16;
-	first ^= (first & 0x00ff00ff) << 8;
-	first ^= (first & 0x0f0f0f0f) << 4;
-	first ^= (first & 0x33333333) << 2;
-	return first ^ (first & 0x55555555) << 1;
+	index ^= index >> 16;
+	index ^= (index & 0xff00ff00) >> 8;
+	index ^= (index & 0xf0f0f0f0) >> 4;
+	index ^= (index & 0xcccccccc) >> 2;
+	return index ^ (index & 0xaaaaaaaa) >> 1;
 }
 
 void
@@ -66,17 +63,20 @@ spec_sampler_pair(struct spec_sampler *sampler, double pair[2])
 {
 	uint64_t hash = mix(sampler->seed + 0x9e3779b97f4a7c15 * ++sampler->dimension);
 	uint64_t other = mix(hash ^ 0xd1b54a32d192ed03);
-	uint32_t first = scramble_reversed(sampler->reversed, (uint32_t)hash);
+	uint32_t index = reverse(scramble_reversed(sampler->reversed, (uint32_t)hash));
+	uint32_t first = scramble_reversed(index, (uint32_t)(hash >> 32));
+	uint32_t second = scramble_reversed(second_reversed(index), (uint32_t)other);
+	uint64_t both = reverse_long((uint64_t)first << 32 | second);
 
-	pair[0] = scramble(first, (uint32_t)(hash >> 32)) * 0x1p-32;
-	pair[1] = scramble(second(first), (uint32_t)other) * 0x1p-32;
+	pair[0] = (uint32_t)both * 0x1p-32;
+	pair[1] = (uint32_t)(both >> 32) * 0x1p-32;
 }
 
 double
 spec_sampler_number(struct spec_sampler *sampler)
 {
 	uint64_t hash = mix(sampler->seed + 0x9e3779b97f4a7c15 * ++sampler->dimension);
-	uint32_t first = scramble_reversed(sampler->reversed, (uint32_t)hash);
+	uint32_t index = reverse(scramble_reversed(sampler->reversed, (uint32_t)hash));
 
-	return scramble(first, (uint32_t)(hash >> 32)) * 0x1p-32;
+	return reverse(scramble_reversed(index, (uint32_t)(hash >> 32))) * 0x1p-32;
 }
