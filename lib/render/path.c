@@ -51,11 +51,23 @@ fill(float *to, float value, size_t count)
 		to[i] = value;
 }
 
-SPEC_VECTORISED static void
+/*
+ * Returns the largest product. Floats of at least 0 are in the order of their bits, of which
+ * gcc makes vector code.
+ */
+SPEC_VECTORISED static float
 multiply(float *restrict to, const float *restrict by, size_t count)
 {
-	for (size_t i = 0; i < count; i++)
+	uint32_t most = 0, bits;
+	float result;
+
+	for (size_t i = 0; i < count; i++) {
 		to[i] *= by[i];
+		memcpy(&bits, to + i, sizeof bits);
+		most = bits > most ? bits : most;
+	}
+	memcpy(&result, &most, sizeof result);
+	return result;
 }
 
 SPEC_VECTORISED static void
@@ -72,22 +84,6 @@ add_three(float *restrict radiance, const float *restrict a, const float *restri
 {
 	for (size_t i = 0; i < count; i++)
 		radiance[i] += weight * a[i] * b[i] * c[i];
-}
-
-/* Floats of at least 0 are in the order of their bits, of which gcc makes vector code. */
-typedef uint32_t bits __attribute__((may_alias));
-
-SPEC_VECTORISED static float
-largest(const float *value, size_t count)
-{
-	const bits *number = (const bits *)(const void *)value;
-	uint32_t most = 0;
-	float result;
-
-	for (size_t i = 0; i < count; i++)
-		most = number[i] > most ? number[i] : most;
-	memcpy(&result, &most, sizeof result);
-	return result;
 }
 
 /* The power heuristic with exponent 2 for the first of two ways. */
@@ -157,12 +153,11 @@ add_surroundings(const struct spec_tracer *tracer, const struct spec_ray *ray,
 		tracer->lights, ray->direction, room->throughput, weight, radiance);
 }
 
-/* Ends a path by chance when it carries little; 0: it ended. */
+/* Ends a path by chance when it carries little, at most chance; 0: it ended. */
 static int
-survives(struct spec_path_room *room, size_t bands, int depth, struct spec_sampler *sampler)
+survives(struct spec_path_room *room, size_t bands, float chance, int depth,
+	struct spec_sampler *sampler)
 {
-	float chance = largest(room->throughput, bands);
-
 	if (!(chance > 0))
 		return 0;
 	if (depth < SURE_DEPTH || chance >= 1)
@@ -189,6 +184,7 @@ spec_path_trace(const struct spec_tracer *tracer, const struct spec_ray *first, 
 	for (;; depth++) {
 		struct spec_surface surface = {.hit = &hit, .room = room->room};
 		struct spec_vector direction;
+		float most;
 
 		if (!spec_world_meet(tracer->world, &ray, &hit)) {
 			add_surroundings(tracer, &ray, last.density, room, radiance);
@@ -210,8 +206,8 @@ spec_path_trace(const struct spec_tracer *tracer, const struct spec_ray *first, 
 		if (last.density < 0)
 			return;
 		last.point = hit.point;
-		multiply(room->throughput, room->weight, tracer->bands);
-		if (!survives(room, tracer->bands, depth, sampler))
+		most = multiply(room->throughput, room->weight, tracer->bands);
+		if (!survives(room, tracer->bands, most, depth, sampler))
 			return;
 		ray = spec_world_leave(tracer->world, &hit, direction);
 	}

@@ -7,6 +7,7 @@
 #include <xmmintrin.h>
 
 #include "base/memory.h"
+#include "base/vector.h"
 #include "image/names.h"
 #include "image/save.h"
 #include "render/sums.h"
@@ -341,13 +342,17 @@ struct desk {
 	double *sums;                      /* [slots] */
 };
 
+SPEC_VECTORISED static void
+add_values(double *restrict sum, const float *restrict value, size_t count)
+{
+	for (size_t i = 0; i < count; i++)
+		sum[i] += value[i];
+}
+
 static void
 add_bands_to(struct desk *desk, size_t slot)
 {
-	double *sum = desk->sums + slot;
-
-	for (size_t i = 0; i < desk->render->bands.count; i++)
-		sum[i] += desk->radiance[i];
+	add_values(desk->sums + slot, desk->radiance, desk->render->bands.count);
 }
 
 /* Radiance along a ray, into the sums at slot. */
