@@ -33,6 +33,22 @@ blend_of(const struct spec_image *image, double wavelength_nm)
 }
 
 static enum spec_status
+check_quantity(const struct spec_reader *reader, struct spec_error *error)
+{
+	char *quantity = spec_image_quantity(spec_reader_image(reader), error);
+	int per_band = quantity && strstr(quantity, "per band");
+
+	if (!quantity)
+		return SPEC_ENOMEM;
+	free(quantity);
+	if (!per_band)
+		return SPEC_OK;
+	return spec_error_set(error, SPEC_EUNSUPPORTED,
+		"%s: values are per band, but surroundings need them per nm",
+		spec_reader_name(reader));
+}
+
+static enum spec_status
 check_image(const struct spec_reader *reader, const struct spec_bands_grid *bands,
 	const struct spec_settings *settings, struct spec_error *error)
 {
@@ -160,8 +176,8 @@ at_column(const double *column, size_t width, size_t x)
 }
 
 /*
- * The mean of 3 x 3 pixels in place of each: light is linear between their middles, and a
- * pixel beside the sun has some of it.
+ * The mean over each pixel's place of light that is linear between the pixels' middles: one
+ * beside the sun has some of it.
  */
 static enum spec_status
 blur(struct spec_surroundings *s, struct spec_error *error)
@@ -174,6 +190,7 @@ blur(struct spec_surroundings *s, struct spec_error *error)
 	memcpy(sharp, s->column, h * (w + 1) * sizeof *sharp);
 	for (size_t y = 0; y < h; y++) {
 		for (size_t x = 0; x < w; x++) {
+			static const double weight[] = {1, 6, 1};
 			double sum = 0;
 
 			for (size_t i = 0; i < 3; i++) {
@@ -181,10 +198,11 @@ blur(struct spec_surroundings *s, struct spec_error *error)
 				const double *from =
 					sharp + (row < h ? row : h - 1) * (w + 1);
 
-				sum += at_column(from, w, x + w - 1) +
-				       at_column(from, w, x) + at_column(from, w, x + 1);
+				sum += weight[i] * (at_column(from, w, x + w - 1) +
+							   6 * at_column(from, w, x) +
+							   at_column(from, w, x + 1));
 			}
-			s->column[y * (w + 1) + x + 1] = sum / 9;
+			s->column[y * (w + 1) + x + 1] = sum / 64;
 		}
 	}
 	free(sharp);
@@ -225,6 +243,8 @@ spec_surroundings_read(struct spec_surroundings *s, const char *path,
 	*s = (struct spec_surroundings){.bands = bands->count};
 	if (status == SPEC_OK)
 		status = check_image(reader, bands, settings, error);
+	if (status == SPEC_OK)
+		status = check_quantity(reader, error);
 	if (status == SPEC_OK) {
 		s->width = spec_window_width(&spec_reader_image(reader)->data);
 		s->height = spec_window_height(&spec_reader_image(reader)->data);

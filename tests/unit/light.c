@@ -35,7 +35,8 @@ struct fixture {
 	struct spec_world *world;
 	struct spec_lights *lights;
 	uint64_t seed;
-	char picture[64]; /* a file's name, or "" */
+	char picture[64];     /* a file's name, or "" */
+	const char *quantity; /* of the picture, or null */
 };
 
 static void
@@ -607,6 +608,9 @@ add_sky(struct fixture *f, double (*at)(int x, int y, double wavelength_nm), dou
 	check(spec_image_add_bands(&sky.image, SPEC_ROLE_EMISSIVE, 1, wavelength_nm, 5,
 		      SPEC_SAMPLE_FLOAT, &error),
 		&error);
+	if (f->quantity)
+		check(spec_image_set_text(&sky.image, "spec:quantity", f->quantity, &error),
+			&error);
 	check(spec_image_index(&sky.image, "a sky", &error), &error);
 	f->settings.output = f->picture;
 	check(spec_image_save(&sky.image, &stream, &f->settings, &overflows, &error),
@@ -718,6 +722,24 @@ test_flat_sky(void **state)
 	add_sky(f, flat_at, 3);
 	open_lights(f);
 	expect_irradiance(f, (struct spec_vector){1, 2, 3}, up, 3 * PI, "a flat sky");
+}
+
+/* Values per band are not taken for values per nm. */
+static void
+test_sky_per_band(void **state)
+{
+	struct fixture *f = *state;
+	struct spec_error error;
+
+	f->quantity = "radiance per band";
+	f->scene.files = 1;
+	f->scene.file = calloc(1, sizeof *f->scene.file);
+	f->scene.file[0] = strdup("a.pbrt");
+	add_sky(f, flat_at, 1);
+	check(spec_world_open(&f->world, &f->scene, &error), &error);
+	assert_int_equal(spec_lights_make(&f->lights, &f->scene, f->world, &f->bands,
+				 &f->settings, &error),
+		SPEC_EUNSUPPORTED);
 }
 
 /*
@@ -984,6 +1006,7 @@ main(void)
 		TEST(test_sky_lookup),
 		TEST(test_sky),
 		TEST(test_flat_sky),
+		TEST(test_sky_per_band),
 		TEST(test_sun),
 		TEST(test_densities),
 		TEST(test_sum),
