@@ -27,9 +27,10 @@ void spec_lights_free(struct spec_lights *lights);
 /* A direction to a light as seen from a point. */
 struct spec_light_sample {
 	struct spec_vector direction; /* unit, towards the light */
-	double distance;              /* [m], up to which nothing may stand between */
-	double density; /* [1/sr] of this choice; 0: a point or a direction alone */
-	float *value;   /* [bands] radiance over density; of the former: irradiance
+	double distance; /* [m], up to which nothing may stand between: as far as rounding
+			    leaves the light behind it */
+	double density;  /* [1/sr] of this choice; 0: a point or a direction alone */
+	float *value;    /* [bands] radiance over density; of the former: irradiance
 			   perpendicular to the direction over the chance of the choice */
 };
 

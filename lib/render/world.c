@@ -15,7 +15,7 @@
  */
 #define SKIN 2e-6
 #define THIN_SKIN 1e-10
-#define NEAR 1e-4 /* of a light's distance: what is nearer to it may be a part of it */
+#define SHORT 1e-6 /* of a distance: as much shorter it is no further in single precision */
 
 /* A sphere or a disk, as Embree's callbacks need it. */
 struct quadric {
@@ -646,14 +646,12 @@ spec_world_shades(const struct spec_world *world, const struct spec_hit *hit,
 	struct spec_vector direction, double distance)
 {
 	struct spec_ray ray = spec_world_leave(world, hit, direction);
-	struct spec_vector light, to;
+	struct spec_vector to;
 
-	if (distance == INFINITY)
-		return spec_world_blocks(world, &ray, distance);
-	light = spec_vector_along(hit->point, direction, distance);
-	to = spec_vector_subtract(light, ray.origin);
-	distance = spec_vector_length(to);
+	if (distance == INFINITY || !(distance > 0))
+		return distance > 0 && spec_world_blocks(world, &ray, distance);
+	to = spec_vector_subtract(
+		spec_vector_along(hit->point, direction, distance), ray.origin);
 	ray.direction = spec_vector_unit(to);
-	distance -= NEAR * distance + SKIN * (size_of(light) + world->radius);
-	return distance > 0 && spec_world_blocks(world, &ray, distance);
+	return spec_world_blocks(world, &ray, spec_vector_length(to) * (1 - SHORT));
 }

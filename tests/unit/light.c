@@ -850,7 +850,8 @@ test_densities(void **state)
 		/* Meshes are met in single precision. */
 		expect_near(density / light.density, 1, 1e-4, "an area's density");
 		expect_near(value[2] * light.density, emitted[2], 1e-5, "an area's light");
-		expect_near(hit.distance, light.distance, 1e-5 * hit.distance, "distance");
+		/* A mesh may be met a little before. */
+		expect_near(light.distance, hit.distance, 1e-4 * hit.distance, "distance");
 	}
 	for (int i = 0; i < 4; i++)
 		assert_true(count[i] > 100);

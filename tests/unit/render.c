@@ -381,6 +381,35 @@ test_floor_sizes(void **state)
 	}
 }
 
+/* What hangs 5 mm below a lamp shades it, however large the scene is; and below a point. */
+static void
+test_lampshade(void **state)
+{
+	(void)state;
+	for (int i = 0; i < 4; i++) {
+		struct fixture *f = new_floor();
+		struct spec_ray ray = ray_to(
+			(struct spec_vector){3, 0, 0.5}, (struct spec_vector){0, 0, 0});
+		double mean, deviation;
+
+		f->scene.shape[0].radius = i & 1 ? 1e4 : 10;
+		add_shape(f, SPEC_SCENE_DISK, 0, 0, 1.985, 0.1);
+		if (i & 2) {
+			add_light(f, SPEC_SCENE_POINT, 1)->from[2] = 1.99;
+		} else {
+			add_light(f, SPEC_SCENE_AREA, 1);
+			add_shape(f, SPEC_SCENE_SPHERE, 0, 0, 2, 0.01)->light = 0;
+		}
+		open_render(f);
+		estimate(f, &ray, 1, 256, &mean, &deviation);
+		if (mean != 0)
+			fail_msg("%s in a scene of %g m: %g instead of 0",
+				i & 2 ? "a point" : "a lamp", f->scene.shape[0].radius,
+				mean);
+		free_fixture(f);
+	}
+}
+
 /*
  * On a sphere's own wall: 2.5 cm and 1 km off, where rounding puts points to both sides of it.
  */
@@ -1087,6 +1116,7 @@ main(void)
 		cmocka_unit_test(test_surroundings),
 		cmocka_unit_test(test_closed_room),
 		cmocka_unit_test(test_floor_sizes),
+		cmocka_unit_test(test_lampshade),
 		cmocka_unit_test(test_shining_room),
 		cmocka_unit_test(test_crop),
 		cmocka_unit_test(test_threads),
