@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/nearest.h"
+
 #define EXIT_TROUBLE 2
 #define LONGEST_NAME 32
 #define HELP_COLUMN 28
@@ -97,46 +99,12 @@ print_version(const struct cli *cli)
 	exit(cli_finish(cli, 0));
 }
 
-static int
-smallest(int a, int b, int c)
-{
-	int least = a < b ? a : b;
-
-	return least < c ? least : c;
-}
-
-/* Levenshtein's distance: insertions, deletions and substitutions from a to b. */
-static int
-edit_distance(const char *a, const char *b)
-{
-	int row[LONGEST_NAME + 1];
-	int columns = (int)strlen(b);
-
-	if (columns > LONGEST_NAME)
-		return columns;
-	for (int j = 0; j <= columns; j++)
-		row[j] = j;
-	for (int i = 1; a[i - 1]; i++) {
-		int diagonal = row[0];
-
-		row[0] = i;
-		for (int j = 1; j <= columns; j++) {
-			int above = row[j];
-
-			row[j] = smallest(above + 1, row[j - 1] + 1,
-				diagonal + (a[i - 1] != b[j - 1]));
-			diagonal = above;
-		}
-	}
-	return row[columns];
-}
-
 static void
 find_nearest(
-	const struct cli_option *option, const char *name, const char **best, int *least)
+	const struct cli_option *option, const char *name, const char **best, size_t *least)
 {
 	for (; option->name; option++) {
-		int distance = edit_distance(name, option->name);
+		size_t distance = spec_nearest_distance(name, option->name);
 
 		if (distance < *least) {
 			*least = distance;
@@ -149,7 +117,7 @@ static _Noreturn void
 unknown_option(const struct cli *cli, const char *name)
 {
 	const char *best = NULL;
-	int least = (int)strlen(name) / 2 + 1;
+	size_t least = strlen(name) / 2 + 1;
 
 	for (int i = 0; i < TABLES; i++)
 		find_nearest(table(cli->program, i), name, &best, &least);

@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "scene/nearest.h"
+#include "base/nearest.h"
 
 #define BLANKS " \t"
 

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "scene/nearest.h"
+#include "base/nearest.h"
 #include "scene/parsing.h"
 
 /* ---- what the parts share ---- */

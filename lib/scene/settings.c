@@ -6,8 +6,8 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "base/nearest.h"
 #include "base/number.h"
-#include "scene/nearest.h"
 #include "scene/parsing.h"
 
 /* Replaces a text of the scene's by a copy of another; null: by none. */

@@ -1,10 +1,8 @@
 #include "spectrum/lookup.h"
 
-#include <ctype.h>
 #include <dirent.h>
 #include <errno.h>
 #include <limits.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,11 +11,11 @@
 #include <unistd.h>
 
 #include "base/memory.h"
+#include "base/nearest.h"
 #include "spectrum/spd.h"
 
 #define SUFFIX ".spd"
 #define SHARE "../share/spectools/spectra"
-#define LONGEST_SUGGESTED 64 /* bytes; longer names are not compared by edits */
 
 struct entry {
 	char *name; /* as in "illuminants/D65" */
@@ -261,38 +259,6 @@ find(const struct catalogue *catalogue, const char *name,
 	return best;
 }
 
-/*
- * The least number of characters to insert, delete or replace that turns a into b, case
- * aside.
- * Source: Wagner & Fischer 1974, "The string-to-string correction problem", J. ACM 21(1).
- * Departs: keeps one row of the table; a name longer than LONGEST_SUGGESTED is far away.
- */
-static size_t
-edit_distance(const char *a, const char *b)
-{
-	size_t row[LONGEST_SUGGESTED + 1], length = strlen(b);
-
-	if (length > LONGEST_SUGGESTED)
-		return SIZE_MAX;
-	for (size_t j = 0; j <= length; j++)
-		row[j] = j;
-	for (size_t i = 0; a[i]; i++) {
-		size_t diagonal = row[0];
-
-		row[0] = i + 1;
-		for (size_t j = 0; j < length; j++) {
-			int equal = tolower((unsigned char)a[i]) ==
-				    tolower((unsigned char)b[j]);
-			size_t replace = diagonal + !equal;
-			size_t least = row[j] < row[j + 1] ? row[j] + 1 : row[j + 1] + 1;
-
-			diagonal = row[j + 1];
-			row[j + 1] = replace < least ? replace : least;
-		}
-	}
-	return row[length];
-}
-
 /* The name to ask for instead, or null if none is near. */
 static const char *
 suggest(const struct catalogue *catalogue, const char *name)
@@ -304,7 +270,7 @@ suggest(const struct catalogue *catalogue, const char *name)
 	for (size_t i = 0; i < catalogue->count; i++) {
 		const char *full = catalogue->entry[i].name;
 		const char *candidate = strchr(name, '/') ? full : strrchr(full, '/') + 1;
-		size_t distance = edit_distance(name, candidate);
+		size_t distance = spec_nearest_distance(name, candidate);
 
 		/* "bk7" is meant for "N-BK7", though two characters are missing. */
 		if (distance > allowed && strlen(name) > 1 && strcasestr(candidate, name))

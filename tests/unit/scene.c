@@ -14,7 +14,7 @@
 
 #include <cmocka.h>
 
-#include "scene/nearest.h"
+#include "base/nearest.h"
 #include "scene/parse.h"
 #include "scene/ply.h"
 #include "scene/transform.h"

@@ -1,18 +1,15 @@
-#include "scene/nearest.h"
+#include "base/nearest.h"
 
 #include <ctype.h>
 #include <stdint.h>
 #include <string.h>
 
-#define LONGEST 48 /* bytes of a name in a table */
-
-/* Levenshtein's distance from a to b; upper and lower case are equal. */
-static size_t
-edit_distance(const char *a, const char *b)
+size_t
+spec_nearest_distance(const char *a, const char *b)
 {
-	size_t row[LONGEST + 1], length = strlen(b);
+	size_t row[SPEC_NEAREST_LONGEST + 1], length = strlen(b);
 
-	if (length > LONGEST)
+	if (length > SPEC_NEAREST_LONGEST)
 		return SIZE_MAX;
 	for (size_t j = 0; j <= length; j++)
 		row[j] = j;
@@ -39,7 +36,7 @@ spec_nearest_name(const char *name, const void *table, size_t size)
 	size_t length = strlen(name), least = length < 4 ? 2 : 3;
 	const char *nearest = NULL;
 
-	if (length < 2 || length > LONGEST)
+	if (length < 2 || length > SPEC_NEAREST_LONGEST)
 		return NULL;
 	for (const char *row = table;; row += size) {
 		const char *candidate;
@@ -48,7 +45,7 @@ spec_nearest_name(const char *name, const void *table, size_t size)
 		memcpy(&candidate, row, sizeof candidate);
 		if (!candidate)
 			return nearest;
-		distance = edit_distance(name, candidate);
+		distance = spec_nearest_distance(name, candidate);
 		if (distance < least) {
 			least = distance;
 			nearest = candidate;
