@@ -2,6 +2,8 @@
 
 #include <math.h>
 
+#include "render/through.h"
+
 #define PI 3.14159265358979323846
 
 void
@@ -16,18 +18,6 @@ spec_camera_make(
 	for (int i = 0; i < 4; i++)
 		camera->screen[i] =
 			half * (scene->has_screen ? scene->screen[i] : window[i]);
-}
-
-static struct spec_vector
-to_world(const struct spec_transform *camera, struct spec_vector v, int is_point)
-{
-	const double(*m)[4] = camera->m;
-	double w = is_point;
-
-	return (struct spec_vector){
-		m[0][0] * v.x + m[0][1] * v.y + m[0][2] * v.z + w * m[0][3],
-		m[1][0] * v.x + m[1][1] * v.y + m[1][2] * v.z + w * m[1][3],
-		m[2][0] * v.x + m[2][1] * v.y + m[2][2] * v.z + w * m[2][3]};
 }
 
 /* pbrt's spherical camera: y is the pole, and columns go from x by z. */
@@ -63,6 +53,6 @@ spec_camera_ray(
 		origin = (struct spec_vector){radius * cos(angle), radius * sin(angle), 0};
 		direction = spec_vector_subtract(focus, origin);
 	}
-	return (struct spec_ray){to_world(&scene->camera, origin, 1),
-		spec_vector_unit(to_world(&scene->camera, direction, 0))};
+	return (struct spec_ray){spec_through_point(scene->camera.m, origin),
+		spec_vector_unit(spec_through_direction(scene->camera.m, direction))};
 }

@@ -6,42 +6,30 @@
 
 #include "base/memory.h"
 #include "base/vector.h"
+#include "render/area.h"
 #include "render/surroundings.h"
+#include "render/through.h"
 
 #define PI 3.14159265358979323846
-#define ON 2e-6 /* of a sphere's radius: a point so near counts as on it */
-/*
- * How far off an area rays may meet it, of the size of the numbers that it is computed from:
- * 33 ulps of single precision for meshes, which are Embree's, else 45000 of double precision.
- */
-#define OFF 2e-6
-#define THIN_OFF 1e-11
 
 /* One thing that may be chosen: a light without a shape, or a shape that shines. */
 struct emitter {
 	enum spec_scene_light_kind kind;
-	size_t light;         /* its number in the scene */
-	size_t shape;         /* of an area light */
-	double chance, until; /* of being chosen, and the sum up to here */
-	float *value;         /* [bands] */
-	/* Areas. */
-	double area;            /* [m^2] */
-	double *triangle_until; /* [triangles] cumulative area of a mesh's */
-	struct spec_vector
-		*corner;       /* [3 * triangles] a corner and two edges, in world space */
-	unsigned char *inward; /* [triangles] the edges' cross product points inward */
-	double radius;         /* of a sphere in world space [m] */
-	struct spec_vector middle;
+	size_t light;          /* its number in the scene */
+	size_t shape;          /* of an area light */
+	double chance, until;  /* of being chosen, and the sum up to here */
+	float *value;          /* [bands] */
+	struct spec_area area; /* of an area light */
 };
 
 struct spec_lights {
 	const struct spec_scene *scene;
+	const struct spec_world *world;
 	size_t bands, emitters;
 	struct emitter *emitter;
 	size_t *of_shape;    /* [shapes] the emitter, or SPEC_SCENE_NONE */
 	size_t surroundings; /* the emitter of the infinite light, or SPEC_SCENE_NONE */
 	struct spec_surroundings picture; /* of it, if it has one */
-	struct spec_vector world_middle;
 	double world_radius;
 };
 
@@ -49,137 +37,6 @@ static struct spec_vector
 vector_of(const double v[3])
 {
 	return (struct spec_vector){v[0], v[1], v[2]};
-}
-
-static struct spec_vector
-turned(const double m[4][4], struct spec_vector v)
-{
-	return (struct spec_vector){m[0][0] * v.x + m[0][1] * v.y + m[0][2] * v.z,
-		m[1][0] * v.x + m[1][1] * v.y + m[1][2] * v.z,
-		m[2][0] * v.x + m[2][1] * v.y + m[2][2] * v.z};
-}
-
-static struct spec_vector
-moved(const double m[4][4], struct spec_vector p)
-{
-	return spec_vector_add(
-		turned(m, p), (struct spec_vector){m[0][3], m[1][3], m[2][3]});
-}
-
-static struct spec_vector
-corner(const struct spec_scene_shape *shape, size_t triangle, size_t i)
-{
-	const float *p = shape->point + 3 * (size_t)shape->index[3 * triangle + i];
-
-	return moved(shape->world.m, (struct spec_vector){p[0], p[1], p[2]});
-}
-
-/*
- * Whether the winding of a triangle in world space shows its inside: outward is as in object
- * space, also where a space turns left hands to right ones, and as the vertices' normals say.
- */
-static int
-is_inward(const struct spec_scene_shape *shape, size_t triangle)
-{
-	const double(*m)[4] = shape->world.m;
-	struct spec_vector x = {m[0][0], m[1][0], m[2][0]};
-	struct spec_vector y = {m[0][1], m[1][1], m[2][1]};
-	struct spec_vector z = {m[0][2], m[1][2], m[2][2]};
-	int mirrored = spec_vector_dot(spec_vector_cross(x, y), z) < 0;
-	const uint32_t *index = shape->index + 3 * triangle;
-	struct spec_vector local[3], normal;
-	double sum = 0;
-
-	for (size_t i = 0; i < 3; i++) {
-		const float *p = shape->point + 3 * (size_t)index[i];
-
-		local[i] = (struct spec_vector){p[0], p[1], p[2]};
-	}
-	normal = spec_vector_cross(spec_vector_subtract(local[1], local[0]),
-		spec_vector_subtract(local[2], local[0]));
-	for (size_t i = 0; i < 3 && shape->normal; i++) {
-		const float *n = shape->normal + 3 * (size_t)index[i];
-
-		sum += spec_vector_dot(normal, (struct spec_vector){n[0], n[1], n[2]});
-	}
-	return mirrored != (sum < 0);
-}
-
-static enum spec_status
-measure_mesh(struct emitter *emitter, const struct spec_scene_shape *shape,
-	struct spec_error *error)
-{
-	double *until =
-		spec_memory_new(shape->triangles, sizeof *until, "triangles", error);
-
-	emitter->triangle_until = until;
-	emitter->corner = spec_memory_new(
-		shape->triangles, 3 * sizeof *emitter->corner, "triangles", error);
-	emitter->inward = spec_memory_new(shape->triangles, 1, "triangles", error);
-	if (!until || !emitter->corner || !emitter->inward)
-		return SPEC_ENOMEM;
-	for (size_t i = 0; i < shape->triangles; i++) {
-		struct spec_vector *at = emitter->corner + 3 * i;
-
-		at[0] = corner(shape, i, 0);
-		at[1] = spec_vector_subtract(corner(shape, i, 1), at[0]);
-		at[2] = spec_vector_subtract(corner(shape, i, 2), at[0]);
-		emitter->inward[i] = (unsigned char)is_inward(shape, i);
-		emitter->area += spec_vector_length(spec_vector_cross(at[1], at[2])) / 2;
-		until[i] = emitter->area;
-	}
-	return SPEC_OK;
-}
-
-/* The lengths of the axes of a shape's space; all the same for what stays a sphere. */
-static int
-is_similar(const double m[4][4], double *scale)
-{
-	double length[3], most = 0, skew = 0;
-
-	for (int i = 0; i < 3; i++) {
-		length[i] = sqrt(m[0][i] * m[0][i] + m[1][i] * m[1][i] + m[2][i] * m[2][i]);
-		most = fmax(most, length[i]);
-	}
-	for (int i = 0; i < 3; i++) {
-		int j = (i + 1) % 3;
-
-		skew = fmax(skew,
-			fabs(m[0][i] * m[0][j] + m[1][i] * m[1][j] + m[2][i] * m[2][j]));
-		skew = fmax(skew, fabs(length[i] - length[j]) * most);
-	}
-	*scale = length[0];
-	return skew <= 1e-6 * most * most;
-}
-
-static enum spec_status
-measure_area(struct spec_lights *lights, struct emitter *emitter, struct spec_error *error)
-{
-	const struct spec_scene_shape *shape = &lights->scene->shape[emitter->shape];
-	double scale, r = shape->radius, inner = shape->inner_radius;
-
-	if (shape->kind == SPEC_SCENE_MESH)
-		return measure_mesh(emitter, shape, error);
-	if (shape->kind == SPEC_SCENE_DISK) {
-		struct spec_vector x =
-			turned(shape->world.m, (struct spec_vector){1, 0, 0});
-		struct spec_vector y =
-			turned(shape->world.m, (struct spec_vector){0, 1, 0});
-
-		emitter->area = PI * (r * r - inner * inner) *
-				spec_vector_length(spec_vector_cross(x, y));
-		return SPEC_OK;
-	}
-	if (!is_similar(shape->world.m, &scale)) {
-		(void)spec_error_set(error, SPEC_EUNSUPPORTED,
-			"a sphere that shines cannot be stretched yet");
-		spec_scene_prefix(lights->scene, &shape->place, error);
-		return SPEC_EUNSUPPORTED;
-	}
-	emitter->radius = r * scale;
-	emitter->middle = moved(shape->world.m, (struct spec_vector){0, 0, 0});
-	emitter->area = 4 * PI * emitter->radius * emitter->radius;
-	return SPEC_OK;
 }
 
 /* Radiant power, up to a factor that all lights share. */
@@ -198,7 +55,7 @@ power_of(const struct spec_lights *lights, const struct emitter *emitter)
 	if (emitter->kind == SPEC_SCENE_INFINITE)
 		return 4 * PI * PI * square * mean *
 		       (lights->picture.pixel ? lights->picture.mean : 1);
-	return emitter->area * PI * mean * (light->twosided ? 2 : 1);
+	return emitter->area.area * PI * mean * (light->twosided ? 2 : 1);
 }
 
 static enum spec_status
@@ -226,8 +83,12 @@ add_emitter(struct spec_lights *lights, const struct spec_bands_grid *bands, siz
 		spec_scene_prefix(lights->scene, &from->place, error);
 	}
 	free(value);
-	if (status == SPEC_OK && from->kind == SPEC_SCENE_AREA)
-		status = measure_area(lights, emitter, error);
+	if (status != SPEC_OK || from->kind != SPEC_SCENE_AREA)
+		return status;
+	status = spec_area_make(&emitter->area, &lights->scene->shape[shape],
+		spec_world_facets(lights->world, shape), error);
+	if (status == SPEC_EUNSUPPORTED)
+		spec_scene_prefix(lights->scene, &lights->scene->shape[shape].place, error);
 	return status;
 }
 
@@ -239,7 +100,7 @@ read_picture(struct spec_lights *lights, const struct spec_scene_light *light,
 	double scale;
 	enum spec_status status = SPEC_OK;
 
-	if (!is_similar(light->world.m, &scale))
+	if (!spec_area_is_similar(light->world.m, &scale))
 		status = spec_error_set(error, SPEC_EUNSUPPORTED,
 			"a picture of surroundings cannot be stretched");
 	if (status == SPEC_OK)
@@ -316,14 +177,16 @@ spec_lights_make(struct spec_lights **result, const struct spec_scene *scene,
 {
 	struct spec_lights *lights = spec_memory_new(1, sizeof *lights, "lights", error);
 	enum spec_status status = SPEC_OK;
+	struct spec_vector middle;
 
 	*result = lights;
 	if (!lights)
 		return SPEC_ENOMEM;
 	lights->scene = scene;
+	lights->world = world;
 	lights->bands = bands->count;
 	lights->surroundings = SPEC_SCENE_NONE;
-	spec_world_bounds(world, &lights->world_middle, &lights->world_radius);
+	spec_world_bounds(world, &middle, &lights->world_radius);
 	lights->emitter = spec_memory_new(
 		scene->lights + scene->shapes, sizeof *lights->emitter, "lights", error);
 	lights->of_shape =
@@ -350,9 +213,7 @@ spec_lights_free(struct spec_lights *lights)
 		return;
 	for (size_t i = 0; lights->emitter && i < lights->emitters; i++) {
 		free(lights->emitter[i].value);
-		free(lights->emitter[i].triangle_until);
-		free(lights->emitter[i].corner);
-		free(lights->emitter[i].inward);
+		spec_area_free(&lights->emitter[i].area);
 	}
 	free(lights->emitter);
 	free(lights->of_shape);
@@ -365,106 +226,6 @@ scale_values(float *restrict to, const float *restrict from, float factor, size_
 {
 	for (size_t i = 0; i < count; i++)
 		to[i] = factor * from[i];
-}
-
-/* What the numbers are in size that a point is computed from. */
-static double
-size_of(struct spec_vector v)
-{
-	return fabs(v.x) + fabs(v.y) + fabs(v.z);
-}
-
-/*
- * A point of an area, uniform over it, and the outward normal there. Returns how far off it
- * rays may meet it along the normal [m].
- */
-static double
-sample_area(const struct spec_scene_shape *shape, const struct emitter *emitter,
-	const double pair[2], double number, struct spec_vector *point,
-	struct spec_vector *normal)
-{
-	const double(*m)[4] = shape->world.m;
-	double root = sqrt(pair[0]), angle = 2 * PI * pair[1], off;
-
-	if (shape->kind == SPEC_SCENE_MESH) {
-		double wanted = number * emitter->area;
-		size_t low = 0, high = shape->triangles - 1;
-		const struct spec_vector *at;
-
-		while (low < high) {
-			size_t middle = (low + high) / 2;
-
-			if (emitter->triangle_until[middle] <= wanted)
-				low = middle + 1;
-			else
-				high = middle;
-		}
-		at = emitter->corner + 3 * low;
-		*point = spec_vector_along(
-			spec_vector_along(at[0], at[1], root * (1 - pair[1])), at[2],
-			root * pair[1]);
-		*normal = spec_vector_unit(spec_vector_cross(at[1], at[2]));
-		if (emitter->inward[low])
-			*normal = spec_vector_negate(*normal);
-		off = OFF * (size_of(*point) + size_of(at[1]) + size_of(at[2]));
-	} else {
-		double inner = shape->inner_radius, outer = shape->radius;
-		double r = sqrt(inner * inner + pair[0] * (outer * outer - inner * inner));
-		struct spec_vector x = turned(m, (struct spec_vector){1, 0, 0});
-		struct spec_vector y = turned(m, (struct spec_vector){0, 1, 0});
-
-		*point = moved(m, (struct spec_vector){
-					  r * cos(angle), r * sin(angle), shape->height});
-		*normal = spec_vector_unit(spec_vector_cross(x, y));
-		if (spec_vector_dot(*normal, turned(m, (struct spec_vector){0, 0, 1})) < 0)
-			*normal = spec_vector_negate(*normal);
-		off = THIN_OFF * (size_of(*point) + outer);
-	}
-	if (shape->reverse_orientation)
-		*normal = spec_vector_negate(*normal);
-	return off;
-}
-
-/* 1 - cosine of the cone that a sphere fills; 2, all directions, from within and on it. */
-static double
-cone_of(const struct emitter *emitter, struct spec_vector point, struct spec_vector *axis)
-{
-	double distance, sine;
-
-	*axis = spec_vector_subtract(emitter->middle, point);
-	distance = spec_vector_length(*axis);
-	if (distance <= emitter->radius * (1 + ON)) {
-		*axis = (struct spec_vector){0, 0, 1};
-		return 2;
-	}
-	sine = emitter->radius / distance;
-	*axis = spec_vector_scale(*axis, 1 / distance);
-	return sine * sine / (1 + sqrt(1 - sine * sine));
-}
-
-static int
-sample_sphere(const struct emitter *emitter, struct spec_vector point, const double pair[2],
-	struct spec_light_sample *sample)
-{
-	struct spec_frame frame;
-	struct spec_vector axis;
-	double cone = cone_of(emitter, point, &axis), cosine = 1 - pair[0] * cone;
-	double sine = sqrt(fmax(0, 1 - cosine * cosine)), angle = 2 * PI * pair[1];
-	double middle, half;
-	struct spec_vector to = spec_vector_subtract(emitter->middle, point);
-
-	if (!(cone > 0))
-		return 0;
-	frame = spec_frame_about(axis);
-	sample->direction = spec_frame_to_world(
-		&frame, (struct spec_vector){sine * cos(angle), sine * sin(angle), cosine});
-	middle = spec_vector_dot(sample->direction, to);
-	half = emitter->radius * emitter->radius -
-	       (spec_vector_dot(to, to) - middle * middle);
-	half = sqrt(fmax(0, half));
-	sample->distance = cone < 2 ? middle - half : middle + half;
-	sample->density = 1 / (2 * PI * cone);
-	return sample->distance > ON * emitter->radius; /* else outwards, on it */
 }
 
 /* Which side of a surface shines: 0 where none does in this direction. */
@@ -480,31 +241,15 @@ sample_shape(const struct spec_lights *lights, const struct emitter *emitter,
 	struct spec_vector from, const double pair[2], double number,
 	struct spec_light_sample *sample)
 {
-	const struct spec_scene_shape *shape = &lights->scene->shape[emitter->shape];
 	const struct spec_scene_light *light = &lights->scene->light[emitter->light];
-	struct spec_vector point, normal, to;
-	double square, off, cosine;
+	struct spec_area_sample area;
 
-	if (shape->kind == SPEC_SCENE_SPHERE) {
-		if (!sample_sphere(emitter, from, pair, sample))
-			return 0;
-		point = spec_vector_along(from, sample->direction, sample->distance);
-		normal = spec_vector_subtract(point, emitter->middle);
-		if (shape->reverse_orientation)
-			normal = spec_vector_negate(normal);
-		return shines(light, normal, sample->direction);
-	}
-	off = sample_area(shape, emitter, pair, number, &point, &normal);
-	to = spec_vector_subtract(point, from);
-	square = spec_vector_dot(to, to);
-	if (!(square > 0))
+	if (!spec_area_sample(&emitter->area, from, pair, number, &area))
 		return 0;
-	sample->distance = sqrt(square);
-	sample->direction = spec_vector_scale(to, 1 / sample->distance);
-	cosine = fabs(spec_vector_dot(normal, sample->direction));
-	sample->density = square / (emitter->area * cosine);
-	sample->distance = fmax(sample->distance - off / cosine, 0);
-	return sample->density < INFINITY && shines(light, normal, sample->direction);
+	sample->direction = area.direction;
+	sample->distance = area.distance;
+	sample->density = area.density;
+	return shines(light, area.normal, sample->direction);
 }
 
 static int
@@ -519,7 +264,8 @@ sample_surroundings(const struct spec_lights *lights, const struct emitter *emit
 	sample->direction = local;
 	if (lights->picture.pixel) {
 		sample->density = spec_surroundings_sample(&lights->picture, pair, &local);
-		sample->direction = spec_vector_unit(turned(light->world.m, local));
+		sample->direction =
+			spec_vector_unit(spec_through_direction(light->world.m, local));
 	}
 	sample->distance = INFINITY;
 	return sample->density > 0;
@@ -623,23 +369,15 @@ spec_lights_emitted(const struct spec_lights *lights, const struct spec_hit *hit
 {
 	size_t number = lights->of_shape[hit->shape];
 	const struct emitter *emitter;
-	const struct spec_scene_shape *shape;
-	struct spec_vector axis, to;
 
 	*density = 0;
 	if (number == SPEC_SCENE_NONE)
 		return NULL;
 	emitter = &lights->emitter[number];
-	shape = &lights->scene->shape[hit->shape];
 	if (!shines(&lights->scene->light[emitter->light], hit->normal, direction))
 		return NULL;
-	if (shape->kind == SPEC_SCENE_SPHERE) {
-		*density = emitter->chance / (2 * PI * cone_of(emitter, origin, &axis));
-		return emitter->value;
-	}
-	to = spec_vector_subtract(hit->point, origin);
-	*density = emitter->chance * spec_vector_dot(to, to) /
-		   (emitter->area * fabs(spec_vector_dot(hit->normal, direction)));
+	*density =
+		emitter->chance * spec_area_density(&emitter->area, hit, origin, direction);
 	return emitter->value;
 }
 
@@ -671,8 +409,8 @@ spec_lights_add_surroundings(const struct spec_lights *lights, struct spec_vecto
 	if (lights->picture.pixel) {
 		const struct spec_scene_light *light =
 			&lights->scene->light[emitter->light];
-		struct spec_vector local =
-			spec_vector_unit(turned(light->world.inverse, direction));
+		struct spec_vector local = spec_vector_unit(
+			spec_through_direction(light->world.inverse, direction));
 
 		/* The value is the scale alone, the same in all bands. */
 		spec_surroundings_add(&lights->picture, local,
@@ -698,9 +436,9 @@ spec_lights_surroundings_density(
 		const struct spec_scene_light *light =
 			&lights->scene->light[emitter->light];
 
-		return emitter->chance *
-		       spec_surroundings_density(&lights->picture,
-			       spec_vector_unit(turned(light->world.inverse, direction)));
+		return emitter->chance * spec_surroundings_density(&lights->picture,
+						 spec_vector_unit(spec_through_direction(
+							 light->world.inverse, direction)));
 	}
 	return emitter->chance / (4 * PI);
 }

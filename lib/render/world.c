@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "render/through.h"
 
 #define PI 3.14159265358979323846
 /*
@@ -23,19 +24,12 @@ struct quadric {
 	size_t number;
 };
 
-/* A mesh's triangles in world space; null lists where a shape is no mesh. */
-struct facets {
-	struct spec_vector *corner;   /* [3 * triangles] */
-	struct spec_vector *normal;   /* [triangles] geometric, outward, unit */
-	struct spec_vector low, size; /* of the box around the mesh in its own space */
-};
-
 struct spec_world {
 	const struct spec_scene *scene;
 	RTCDevice device;
 	RTCScene tree;
-	struct quadric *quadric; /* [shapes] */
-	struct facets *facets;   /* [shapes] */
+	struct quadric *quadric;    /* [shapes] */
+	struct spec_facets *facets; /* [shapes]; empty where a shape is no mesh */
 	struct spec_vector middle;
 	double radius;
 	char message[256]; /* of Embree's first error */
@@ -47,34 +41,6 @@ struct journey {
 	struct spec_vector origin, direction;
 	double distance; /* of the nearest sphere or disk so far */
 };
-
-static struct spec_vector
-point_through(const double m[4][4], struct spec_vector p)
-{
-	return (struct spec_vector){m[0][0] * p.x + m[0][1] * p.y + m[0][2] * p.z + m[0][3],
-		m[1][0] * p.x + m[1][1] * p.y + m[1][2] * p.z + m[1][3],
-		m[2][0] * p.x + m[2][1] * p.y + m[2][2] * p.z + m[2][3]};
-}
-
-static struct spec_vector
-vector_through(const double m[4][4], struct spec_vector v)
-{
-	return (struct spec_vector){m[0][0] * v.x + m[0][1] * v.y + m[0][2] * v.z,
-		m[1][0] * v.x + m[1][1] * v.y + m[1][2] * v.z,
-		m[2][0] * v.x + m[2][1] * v.y + m[2][2] * v.z};
-}
-
-/* A normal goes by the transpose of the inverse. */
-static struct spec_vector
-normal_through(const struct spec_transform *transform, struct spec_vector n)
-{
-	const double(*m)[4] = transform->inverse;
-
-	return spec_vector_unit(
-		(struct spec_vector){m[0][0] * n.x + m[1][0] * n.y + m[2][0] * n.z,
-			m[0][1] * n.x + m[1][1] * n.y + m[2][1] * n.z,
-			m[0][2] * n.x + m[1][2] * n.y + m[2][2] * n.z});
-}
 
 /*
  * The nearest distance in (least, most) at which o + t d meets a sphere about 0; 0: none.
@@ -117,8 +83,9 @@ static double
 meet_quadric(const struct spec_scene_shape *shape, const struct journey *journey,
 	double least, double most)
 {
-	struct spec_vector o = point_through(shape->world.inverse, journey->origin);
-	struct spec_vector d = vector_through(shape->world.inverse, journey->direction);
+	struct spec_vector o = spec_through_point(shape->world.inverse, journey->origin);
+	struct spec_vector d =
+		spec_through_direction(shape->world.inverse, journey->direction);
 
 	return shape->kind == SPEC_SCENE_SPHERE
 		       ? meet_sphere(shape->radius, o, d, least, most)
@@ -175,7 +142,7 @@ bound_quadric(const struct RTCBoundsFunctionArguments *arguments)
 		most[i] = -DBL_MAX;
 	}
 	for (int corner = 0; corner < 8; corner++) {
-		struct spec_vector p = point_through(shape->world.m,
+		struct spec_vector p = spec_through_point(shape->world.m,
 			(struct spec_vector){corner & 1 ? r : -r, corner & 2 ? r : -r,
 				corner & 4 ? high : low});
 		double at[3] = {p.x, p.y, p.z};
@@ -222,68 +189,6 @@ add_quadric(struct spec_world *world, size_t number, struct spec_error *error)
 	return SPEC_OK;
 }
 
-static struct spec_vector
-vertex(const float *list, size_t i)
-{
-	return (struct spec_vector){list[3 * i], list[3 * i + 1], list[3 * i + 2]};
-}
-
-/* The box around a mesh in its own space. */
-static void
-find_box(struct facets *facets, const struct spec_scene_shape *shape)
-{
-	double low[3] = {DBL_MAX, DBL_MAX, DBL_MAX},
-	       high[3] = {-DBL_MAX, -DBL_MAX, -DBL_MAX};
-
-	for (size_t i = 0; i < 3 * shape->vertices; i++) {
-		low[i % 3] = fmin(low[i % 3], shape->point[i]);
-		high[i % 3] = fmax(high[i % 3], shape->point[i]);
-	}
-	facets->low = (struct spec_vector){low[0], low[1], low[2]};
-	facets->size =
-		(struct spec_vector){high[0] - low[0], high[1] - low[1], high[2] - low[2]};
-}
-
-/* pbrt: the vertices' normals, where there are some, say which side is outward. */
-static int
-is_inward(const struct spec_scene_shape *shape, const uint32_t *index,
-	struct spec_vector normal)
-{
-	double sum = 0;
-
-	for (size_t j = 0; j < 3 && shape->normal; j++)
-		sum += spec_vector_dot(normal, vertex(shape->normal, index[j]));
-	return sum < 0;
-}
-
-static enum spec_status
-make_facets(struct facets *facets, const struct spec_scene_shape *shape,
-	struct spec_error *error)
-{
-	facets->corner = spec_memory_new(
-		shape->triangles, 3 * sizeof *facets->corner, "triangles", error);
-	facets->normal = spec_memory_new(
-		shape->triangles, sizeof *facets->normal, "triangles", error);
-	if (!facets->corner || !facets->normal)
-		return SPEC_ENOMEM;
-	find_box(facets, shape);
-	for (size_t i = 0; i < shape->triangles; i++) {
-		struct spec_vector *corner = facets->corner + 3 * i, local[3], normal;
-
-		for (size_t j = 0; j < 3; j++) {
-			local[j] = vertex(shape->point, shape->index[3 * i + j]);
-			corner[j] = point_through(shape->world.m, local[j]);
-		}
-		/* In object space: a space that is mirrored keeps its outside. */
-		normal = spec_vector_cross(spec_vector_subtract(local[1], local[0]),
-			spec_vector_subtract(local[2], local[0]));
-		if (is_inward(shape, shape->index + 3 * i, normal))
-			normal = spec_vector_negate(normal);
-		facets->normal[i] = normal_through(&shape->world, normal);
-	}
-	return SPEC_OK;
-}
-
 static enum spec_status
 add_mesh(struct spec_world *world, size_t number, struct spec_error *error)
 {
@@ -304,7 +209,7 @@ add_mesh(struct spec_world *world, size_t number, struct spec_error *error)
 		return spec_error_set(error, SPEC_ENOMEM, "Embree: %s", world->message);
 	}
 	for (size_t i = 0; i < shape->vertices; i++) {
-		struct spec_vector p = point_through(shape->world.m,
+		struct spec_vector p = spec_through_point(shape->world.m,
 			(struct spec_vector){shape->point[3 * i], shape->point[3 * i + 1],
 				shape->point[3 * i + 2]});
 
@@ -316,7 +221,7 @@ add_mesh(struct spec_world *world, size_t number, struct spec_error *error)
 	rtcCommitGeometry(geometry);
 	rtcAttachGeometryByID(world->tree, geometry, (unsigned)number);
 	rtcReleaseGeometry(geometry);
-	return make_facets(&world->facets[number], shape, error);
+	return spec_facets_make(&world->facets[number], shape, error);
 }
 
 static void
@@ -396,12 +301,17 @@ spec_world_close(struct spec_world *world)
 	if (world->device)
 		rtcReleaseDevice(world->device);
 	for (size_t i = 0; world->facets && i < world->scene->shapes; i++) {
-		free(world->facets[i].corner);
-		free(world->facets[i].normal);
+		spec_facets_free(&world->facets[i]);
 	}
 	free(world->facets);
 	free(world->quadric);
 	free(world);
+}
+
+const struct spec_facets *
+spec_world_facets(const struct spec_world *world, size_t shape)
+{
+	return &world->facets[shape];
 }
 
 void
@@ -449,7 +359,7 @@ describe_sphere(const struct spec_scene_shape *shape, struct spec_vector p,
 	hit->v = 1 - acos(fmin(fmax(height, -1), 1)) / PI;
 	hit->object = (struct spec_vector){
 		(p.x / r + 1) / 2, (p.y / r + 1) / 2, (p.z / r + 1) / 2};
-	hit->point = point_through(shape->world.m, p);
+	hit->point = spec_through_point(shape->world.m, p);
 }
 
 static void
@@ -466,7 +376,7 @@ describe_disk(const struct spec_scene_shape *shape, struct spec_vector p,
 	hit->u = (azimuth < 0 ? azimuth + 2 * PI : azimuth) / (2 * PI);
 	hit->v = r > shape->inner_radius ? (r - distance) / (r - shape->inner_radius) : 0;
 	hit->object = (struct spec_vector){(p.x / r + 1) / 2, (p.y / r + 1) / 2, 0};
-	hit->point = point_through(shape->world.m, p);
+	hit->point = spec_through_point(shape->world.m, p);
 }
 
 static double
@@ -481,14 +391,15 @@ describe_quadric(const struct spec_scene_shape *shape, const struct spec_ray *ra
 {
 	struct spec_vector at =
 		spec_vector_along(ray->origin, ray->direction, hit->distance);
-	struct spec_vector local = point_through(shape->world.inverse, at), normal, tangent;
+	struct spec_vector local = spec_through_point(shape->world.inverse, at), normal,
+			   tangent;
 
 	if (shape->kind == SPEC_SCENE_SPHERE)
 		describe_sphere(shape, local, hit, &normal, &tangent);
 	else
 		describe_disk(shape, local, hit, &normal, &tangent);
-	hit->normal = hit->shading = normal_through(&shape->world, normal);
-	hit->tangent = spec_vector_unit(vector_through(shape->world.m, tangent));
+	hit->normal = hit->shading = spec_through_normal(&shape->world, normal);
+	hit->tangent = spec_vector_unit(spec_through_direction(shape->world.m, tangent));
 	hit->size = size_of(hit->point) + fabs(shape->world.m[0][3]) +
 		    fabs(shape->world.m[1][3]) + fabs(shape->world.m[2][3]);
 }
@@ -498,9 +409,10 @@ static struct spec_vector
 blend(const float *list, const uint32_t *corner, double u, double v)
 {
 	return spec_vector_along(
-		spec_vector_along(spec_vector_scale(vertex(list, corner[0]), 1 - u - v),
-			vertex(list, corner[1]), u),
-		vertex(list, corner[2]), v);
+		spec_vector_along(
+			spec_vector_scale(spec_facets_vertex(list, corner[0]), 1 - u - v),
+			spec_facets_vertex(list, corner[1]), u),
+		spec_facets_vertex(list, corner[2]), v);
 }
 
 /* dp/du from the vertices' uv, or any direction in the plane where they have none. */
@@ -508,9 +420,11 @@ static struct spec_vector
 mesh_tangent(const struct spec_scene_shape *shape, const uint32_t *corner,
 	struct spec_vector normal)
 {
-	struct spec_vector a = vertex(shape->point, corner[0]);
-	struct spec_vector b = spec_vector_subtract(vertex(shape->point, corner[1]), a);
-	struct spec_vector c = spec_vector_subtract(vertex(shape->point, corner[2]), a);
+	struct spec_vector a = spec_facets_vertex(shape->point, corner[0]);
+	struct spec_vector b =
+		spec_vector_subtract(spec_facets_vertex(shape->point, corner[1]), a);
+	struct spec_vector c =
+		spec_vector_subtract(spec_facets_vertex(shape->point, corner[2]), a);
 	const float *uv = shape->uv;
 	double du1, du2, dv1, dv2, area;
 	struct spec_vector tangent;
@@ -523,7 +437,7 @@ mesh_tangent(const struct spec_scene_shape *shape, const uint32_t *corner,
 	if (area == 0)
 		return spec_frame_about(normal).x;
 	tangent = spec_vector_along(spec_vector_scale(b, dv2 / area), c, -dv1 / area);
-	return spec_vector_unit(vector_through(shape->world.m, tangent));
+	return spec_vector_unit(spec_through_direction(shape->world.m, tangent));
 }
 
 static double
@@ -533,7 +447,7 @@ share_of(double at, double low, double size)
 }
 
 static struct spec_vector
-place_in_box(const struct facets *facets, struct spec_vector p)
+place_in_box(const struct spec_facets *facets, struct spec_vector p)
 {
 	return (struct spec_vector){share_of(p.x, facets->low.x, facets->size.x),
 		share_of(p.y, facets->low.y, facets->size.y),
@@ -541,7 +455,7 @@ place_in_box(const struct facets *facets, struct spec_vector p)
 }
 
 static void
-describe_mesh(const struct spec_scene_shape *shape, const struct facets *facets,
+describe_mesh(const struct spec_scene_shape *shape, const struct spec_facets *facets,
 	const struct RTCHit *found, struct spec_hit *hit)
 {
 	const uint32_t *corner = shape->index + 3 * (size_t)found->primID;
@@ -554,8 +468,8 @@ describe_mesh(const struct spec_scene_shape *shape, const struct facets *facets,
 		    size_of(spec_vector_subtract(at[2], at[0]));
 	hit->normal = hit->shading = facets->normal[found->primID];
 	if (shape->normal)
-		hit->shading =
-			normal_through(&shape->world, blend(shape->normal, corner, u, v));
+		hit->shading = spec_through_normal(
+			&shape->world, blend(shape->normal, corner, u, v));
 	hit->object = place_in_box(facets, blend(shape->point, corner, u, v));
 	/* Without uv pbrt takes (0,0), (1,0), (1,1). */
 	hit->u = u + v;

@@ -6,6 +6,7 @@
 #define SPEC_RENDER_WORLD_H
 
 #include "base/error.h"
+#include "render/facets.h"
 #include "render/space.h"
 #include "scene/scene.h"
 
@@ -51,6 +52,9 @@ struct spec_ray spec_world_leave(const struct spec_world *world, const struct sp
  */
 int spec_world_shades(const struct spec_world *world, const struct spec_hit *hit,
 	struct spec_vector direction, double distance);
+
+/* The triangles of a shape that is a mesh; they live as long as the world. */
+const struct spec_facets *spec_world_facets(const struct spec_world *world, size_t shape);
 
 /* The middle and the radius of a sphere around everything [m]. */
 void spec_world_bounds(
