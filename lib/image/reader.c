@@ -1,390 +1,150 @@
 #include "image/reader.h"
 
-#include <openexr.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/memory.h"
-#include "base/number.h"
-#include "image/exr.h"
 #include "image/reading.h"
-#include "image/scan.h"
 
-#define LARGEST_COORDINATE (1 << 30) /* so that widths and heights fit an int */
-#define BLOCK_COPIES 4               /* packed, unpacked, scratch and converted */
+#define BLOCK_COPIES 4 /* packed, unpacked, scratch and converted */
 
-static int64_t
-read_bytes(exr_const_context_t context, void *data, void *buffer, uint64_t size,
-	uint64_t offset, exr_stream_error_func_ptr_t report)
+/* Tried in this order. */
+static const struct spec_reading_format *const formats[] = {&spec_reading_exr};
+
+/* ---- what formats use ---- */
+
+enum spec_status
+spec_reading_reserve(
+	struct spec_buffer *buffer, size_t size, size_t kept, struct spec_error *error)
 {
-	struct spec_reader *reader = data;
-	struct spec_error error = {0};
-	size_t got;
+	unsigned char *bytes;
 
-	(void)context;
-	(void)report;
-	if (spec_source_read(&reader->source, buffer, size, (int64_t)offset, &got,
-		    &error) != SPEC_OK) {
-		/* Not -1: the library would take it for a length and write before the buffer. */
-		spec_exr_note(&error);
-		return 0;
-	}
-	if (got < size && reader->source.sealed) {
-		spec_error_set(&error, SPEC_EFORMAT, "%s: ends early", reader->source.name);
-		spec_exr_note(&error);
-	}
-	return (int64_t)got;
-}
-
-static int64_t
-source_size(exr_const_context_t context, void *data)
-{
-	struct spec_reader *reader = data;
-
-	(void)context;
-	return reader->source.size;
-}
-
-/* The magic number first: OpenEXRCore's words for a text file are not clear. */
-static enum spec_status
-check_magic(struct spec_reader *reader, struct spec_error *error)
-{
-	static const unsigned char magic[4] = {0x76, 0x2f, 0x31, 0x01};
-	unsigned char bytes[4];
-	size_t got;
-	enum spec_status status =
-		spec_source_read(&reader->source, bytes, sizeof bytes, 0, &got, error);
-
-	if (status != SPEC_OK)
-		return status;
-	if (got == 0)
-		return spec_error_set(
-			error, SPEC_EFORMAT, "%s: is empty", reader->source.name);
-	if (got < sizeof bytes || memcmp(bytes, magic, sizeof magic) != 0)
-		return spec_error_set(error, SPEC_EFORMAT, "%s: is not an OpenEXR file",
-			reader->source.name);
+	if (size <= buffer->room)
+		return SPEC_OK;
+	if (kept > 0 && size < buffer->room + buffer->room / 2)
+		size = buffer->room + buffer->room / 2; /* it grows chunk by chunk */
+	bytes = spec_memory_aligned(size, 1, "bytes of pixels", error);
+	if (!bytes)
+		return SPEC_ENOMEM;
+	if (kept > 0)
+		memcpy(bytes, buffer->bytes, kept);
+	free(buffer->bytes);
+	buffer->bytes = bytes;
+	buffer->room = size;
 	return SPEC_OK;
 }
 
-static enum spec_status
-start(struct spec_reader *reader, struct spec_error *error)
+enum spec_status
+spec_reading_planes(struct spec_decoder *decoder, struct spec_error *error)
 {
-	exr_context_initializer_t setup = EXR_DEFAULT_CONTEXT_INITIALIZER;
+	const struct spec_image *image = &decoder->reader->image;
+	size_t room = spec_reading_align(spec_window_width(&image->data) * sizeof(float));
+	size_t planes = 0;
+	unsigned char *to;
 	enum spec_status status;
-	exr_result_t result;
 
-	setup.error_handler_fn = spec_exr_report;
-	setup.user_data = reader;
-	setup.read_fn = read_bytes;
-	setup.size_fn = reader->source.seekable ? source_size : NULL;
-	setup.alloc_fn = spec_exr_allocate;
-	setup.free_fn = free;
-	/* Not strict, the library would guess at what it cannot read. */
-	setup.flags = EXR_CONTEXT_FLAG_DISABLE_CHUNK_RECONSTRUCTION |
-		      EXR_CONTEXT_FLAG_STRICT_HEADER;
-	spec_exr_forget();
-	spec_exr_allow(reader->limits.header, "header");
-	result = exr_start_read(&reader->context, reader->source.name, &setup);
-	if (result == EXR_ERR_SUCCESS)
-		return SPEC_OK;
-	status = spec_exr_error(result, "the header is damaged or cut short", error);
-	if (error && strstr(error->message, "data window"))
-		return spec_error_set(error, SPEC_ERANGE,
-			"%s: the data window is empty or reaches beyond 2^30",
-			reader->source.name);
-	spec_error_prefix(error, "%s", reader->source.name);
+	for (size_t i = 0; i < image->channels; i++)
+		planes += decoder->wanted[i];
+	status = spec_reading_reserve(
+		&decoder->converted, planes * decoder->lines * room, 0, error);
+	to = decoder->converted.bytes;
+	for (size_t i = 0; status == SPEC_OK && i < image->channels * decoder->lines; i++) {
+		decoder->row[i] = NULL;
+		if (decoder->wanted[i % image->channels]) {
+			decoder->row[i] = (float *)(void *)to;
+			to += room;
+		}
+	}
 	return status;
 }
 
-static enum spec_status
-get_windows(struct spec_reader *reader, int part, struct spec_image *image,
+enum spec_status
+spec_reading_check_size(const struct spec_reader *reader, long long width, long long height,
 	struct spec_error *error)
 {
 	const char *name = reader->source.name;
-	exr_attr_box2i_t data, display;
-	exr_attr_v2f_t centre = {0};
-	exr_compression_t compression = EXR_COMPRESSION_NONE;
-	exr_result_t result = exr_get_data_window(reader->context, part, &data);
-	long long width, height;
 
-	if (result == EXR_ERR_SUCCESS)
-		result = exr_get_display_window(reader->context, part, &display);
-	if (result == EXR_ERR_SUCCESS)
-		result = exr_get_compression(reader->context, part, &compression);
-	if (result != EXR_ERR_SUCCESS)
-		return spec_exr_error(result, name, error);
-	/* Optional in practice: what the library leaves is 1, (0, 0) and 1. */
-	image->pixel_aspect_ratio = image->screen_window_width = 1;
-	exr_get_pixel_aspect_ratio(reader->context, part, &image->pixel_aspect_ratio);
-	exr_get_screen_window_center(reader->context, part, &centre);
-	exr_get_screen_window_width(reader->context, part, &image->screen_window_width);
-	image->screen_window_x = centre.x;
-	image->screen_window_y = centre.y;
-	image->compression = compression;
-	width = (long long)data.max.x - data.min.x + 1;
-	height = (long long)data.max.y - data.min.y + 1;
 	if (width < 1 || height < 1)
-		return spec_error_set(
-			error, SPEC_EFORMAT, "%s: the data window is empty", name);
+		return spec_error_set(error, SPEC_ERANGE, "%s: has no pixel", name);
 	if (width > reader->limits.pixels / height)
 		return spec_error_set(error, SPEC_ERANGE,
 			"%s: %lld x %lld pixels are more than the limit of %lld (--limit "
 			"pixels=N)",
 			name, width, height, reader->limits.pixels);
-	if (data.min.x < -LARGEST_COORDINATE || data.min.y < -LARGEST_COORDINATE ||
-		data.max.x >= LARGEST_COORDINATE || data.max.y >= LARGEST_COORDINATE ||
-		display.max.x == INT32_MAX || display.max.y == INT32_MAX)
-		return spec_error_set(
-			error, SPEC_ERANGE, "%s: a window reaches beyond 2^30", name);
-	image->data = (struct spec_window){
-		data.min.x, data.min.y, data.max.x + 1, data.max.y + 1};
-	image->display = (struct spec_window){
-		display.min.x, display.min.y, display.max.x + 1, display.max.y + 1};
 	return SPEC_OK;
 }
 
-static enum spec_status
-get_channels(struct spec_reader *reader, int part, struct spec_image *image,
-	struct spec_error *error)
+enum spec_status
+spec_reading_check_memory(const struct spec_reader *reader, struct spec_error *error)
 {
-	const char *name = reader->source.name;
-	const exr_attr_chlist_t *list;
-	exr_result_t result = exr_get_channels(reader->context, part, &list);
-	enum spec_status status = SPEC_OK;
+	size_t lines = reader->chunk_lines, bytes = reader->line_bytes;
+	size_t height = spec_window_height(&reader->image.data);
 
-	if (result != EXR_ERR_SUCCESS)
-		return spec_exr_error(result, name, error);
-	if (list->num_channels > reader->limits.channels)
-		return spec_error_set(error, SPEC_ERANGE,
-			"%s: %d channels are more than the limit of %lld (--limit "
-			"channels=N)",
-			name, list->num_channels, reader->limits.channels);
-	for (int i = 0; i < list->num_channels && status == SPEC_OK; i++) {
-		const exr_attr_chlist_entry_t *entry = &list->entries[i];
-
-		if (entry->x_sampling != 1 || entry->y_sampling != 1)
-			return spec_error_set(error, SPEC_EUNSUPPORTED,
-				"%s: channel '%s' is subsampled", name, entry->name.str);
-		status = spec_image_add_channel(
-			image, entry->name.str, (enum spec_sample)entry->pixel_type, error);
-		if (status == SPEC_OK)
-			image->channel[image->channels - 1].linear = entry->p_linear;
-		else
-			spec_error_prefix(error, "%s", name);
-	}
-	return status;
-}
-
-static enum spec_status
-get_image(struct spec_reader *reader, int part, struct spec_image *image,
-	struct spec_error *error)
-{
-	const char *part_name = NULL;
-	enum spec_status status = get_windows(reader, part, image, error);
-
-	if (status == SPEC_OK)
-		status = get_channels(reader, part, image, error);
-	if (status == SPEC_OK)
-		status = spec_exr_get_attributes(
-			reader->context, part, image, reader->source.name, error);
-	if (status == SPEC_OK &&
-		exr_get_name(reader->context, part, &part_name) == EXR_ERR_SUCCESS &&
-		part_name) {
-		image->part = spec_memory_text(part_name, strlen(part_name), error);
-		status = image->part ? SPEC_OK : SPEC_ENOMEM;
-	}
-	if (status == SPEC_OK)
-		status = spec_image_index(image, reader->source.name, error);
-	return status;
-}
-
-static int
-names_part(exr_const_context_t context, int part, const char *wanted)
-{
-	const char *name = NULL;
-	long long number;
-
-	if (exr_get_name(context, part, &name) == EXR_ERR_SUCCESS && name &&
-		strcmp(name, wanted) == 0)
-		return 1;
-	return spec_number_parse_whole(wanted, 0, 1 << 20, "part", &number, NULL) ==
-		       SPEC_OK &&
-	       number == part;
-}
-
-/* The part that was asked for, else the only one with bands. */
-static enum spec_status
-choose_part(
-	struct spec_reader *reader, const char *wanted, int parts, struct spec_error *error)
-{
-	const char *name = reader->source.name;
-	enum spec_status status = SPEC_OK;
-	int spectral = 0;
-
-	reader->part = -1;
-	for (int part = 0; part < parts && status == SPEC_OK; part++) {
-		struct spec_image image = {0};
-
-		if (wanted) {
-			if (reader->part < 0 && names_part(reader->context, part, wanted))
-				reader->part = part;
-			continue;
-		}
-		status = get_image(reader, part, &image, error);
-		if (image.bands > 0 && spectral++ == 0)
-			reader->part = part;
-		spec_image_clear(&image);
-	}
-	if (status != SPEC_OK)
-		return status;
-	if (wanted && reader->part < 0)
-		return spec_error_set(error, SPEC_EUSAGE,
-			"%s: has no part '%s' (it has %d)", name, wanted, parts);
-	if (spectral > 1)
-		return spec_error_set(error, SPEC_EUSAGE,
-			"%s: %d of its %d parts have bands; choose one with --part", name,
-			spectral, parts);
-	if (reader->part < 0)
-		reader->part = 0;
-	return SPEC_OK;
-}
-
-static enum spec_status
-get_storage(struct spec_reader *reader, struct spec_error *error)
-{
-	const char *name = reader->source.name;
-	exr_storage_t storage;
-	exr_result_t result = exr_get_storage(reader->context, reader->part, &storage);
-	int32_t across, down, width, height, lines = 1;
-
-	if (result != EXR_ERR_SUCCESS)
-		return spec_exr_error(result, name, error);
-	if (storage == EXR_STORAGE_DEEP_SCANLINE || storage == EXR_STORAGE_DEEP_TILED)
-		return spec_error_set(
-			error, SPEC_EUNSUPPORTED, "%s: holds deep data", name);
-	if (reader->image.compression == EXR_COMPRESSION_DWAA ||
-		reader->image.compression == EXR_COMPRESSION_DWAB)
-		return spec_error_set(error, SPEC_EUNSUPPORTED,
-			"%s: DWA compression is not in this version of OpenEXRCore", name);
-	if (reader->image.compression < EXR_COMPRESSION_NONE ||
-		reader->image.compression > EXR_COMPRESSION_B44A)
-		return spec_error_set(error, SPEC_EFORMAT, "%s: compression %d is unknown",
-			name, reader->image.compression);
-	reader->tiled = storage == EXR_STORAGE_TILED;
-	if (!reader->tiled) {
-		result = exr_get_scanlines_per_chunk(reader->context, reader->part, &lines);
-		reader->chunk_lines = lines;
-	} else {
-		result = exr_get_tile_sizes(
-			reader->context, reader->part, 0, 0, &width, &height);
-		if (result == EXR_ERR_SUCCESS)
-			result = exr_get_tile_levels(
-				reader->context, reader->part, &across, &down);
-		if (result == EXR_ERR_SUCCESS) {
-			int tile = width < 1 ? 1 : width;
-
-			reader->tile_width = tile;
-			reader->chunk_lines = height < 1 ? 1 : height;
-			reader->tiles_across =
-				(int)((spec_window_width(&reader->image.data) + tile - 1) /
-					tile);
-		}
-	}
-	if (result != EXR_ERR_SUCCESS)
-		return spec_exr_error(result, name, error);
-	if (reader->chunk_lines < 1)
-		return spec_error_set(
-			error, SPEC_EFORMAT, "%s: its storage is unknown", name);
-	return SPEC_OK;
-}
-
-static enum spec_status
-measure_lines(struct spec_reader *reader, struct spec_error *error)
-{
-	const struct spec_image *image = &reader->image;
-	size_t width = spec_window_width(&image->data), bytes = 0;
-	size_t lines = reader->chunk_lines, height = spec_window_height(&image->data);
-
-	reader->offset =
-		spec_memory_new(image->channels, sizeof *reader->offset, "channels", error);
-	if (!reader->offset)
-		return SPEC_ENOMEM;
-	for (size_t i = 0; i < image->channels; i++) {
-		reader->offset[i] = bytes;
-		bytes += width * spec_exr_sample_bytes(image->channel[i].sample);
-	}
-	reader->line_bytes = bytes;
 	if (lines > height)
 		lines = height;
 	if (bytes > (size_t)reader->limits.memory / lines / BLOCK_COPIES)
 		return spec_error_set(error, SPEC_ERANGE,
 			"%s: %zu lines of %zu bytes need more than the limit of %lld bytes "
-			"of memory "
-			"(--limit memory=BYTES)",
+			"of memory (--limit memory=BYTES)",
 			reader->source.name, lines, bytes, reader->limits.memory);
 	return SPEC_OK;
 }
 
-/* A pipe is read forward only; tiles, several parts and other line orders need a copy. */
+/* ---- readers ---- */
+
+/* The format that an open source is in. */
 static enum spec_status
-settle_source(struct spec_reader *reader, int parts, struct spec_error *error)
+find_format(struct spec_source *source, const char *path,
+	const struct spec_reading_format **format, struct spec_error *error)
 {
-	exr_lineorder_t order = EXR_LINEORDER_INCREASING_Y;
-	enum spec_status status = SPEC_OK;
+	unsigned char bytes[SPEC_READING_FIRST_BYTES];
+	size_t got;
+	enum spec_status status =
+		spec_source_read(source, bytes, sizeof bytes, 0, &got, error);
 
-	exr_get_lineorder(reader->context, reader->part, &order);
-	if (!reader->source.seekable &&
-		(reader->tiled || parts > 1 || order != EXR_LINEORDER_INCREASING_Y))
-		status = spec_source_spool(&reader->source, error);
-	spec_source_seal(&reader->source);
-	return status;
-}
-
-static enum spec_status
-open_reader(struct spec_reader *reader, const char *path,
-	const struct spec_settings *settings, struct spec_error *error)
-{
-	int parts = 0;
-	enum spec_status status = spec_source_open(
-		&reader->source, path, (size_t)settings->limits.header, error);
-
-	reader->limits = settings->limits;
-	if (status == SPEC_OK)
-		status = check_magic(reader, error);
-	if (status == SPEC_OK)
-		status = spec_scan_header(&reader->source, &settings->limits, error);
-	if (status == SPEC_OK)
-		status = start(reader, error);
-	if (status == SPEC_OK && exr_get_count(reader->context, &parts) != EXR_ERR_SUCCESS)
-		status = spec_error_set(error, SPEC_EFORMAT, "%s: has no part", path);
-	if (status == SPEC_OK)
-		status = choose_part(reader, settings->part, parts, error);
-	if (status == SPEC_OK)
-		status = get_image(reader, reader->part, &reader->image, error);
-	if (status == SPEC_OK)
-		status = get_storage(reader, error);
-	if (status == SPEC_OK)
-		status = measure_lines(reader, error);
-	if (status == SPEC_OK)
-		status = settle_source(reader, parts, error);
-	return status;
+	if (status != SPEC_OK)
+		return status;
+	if (got == 0)
+		return spec_error_set(error, SPEC_EFORMAT, "%s: is empty", source->name);
+	for (size_t i = 0; i < sizeof formats / sizeof *formats; i++) {
+		if (formats[i]->recognises(bytes, got, path)) {
+			*format = formats[i];
+			return SPEC_OK;
+		}
+	}
+	return spec_error_set(error, SPEC_EFORMAT,
+		"%s: is no image in a format that is read here", source->name);
 }
 
 enum spec_status
-spec_reader_open(struct spec_reader **reader, const char *path,
+spec_reader_open(struct spec_reader **result, const char *path,
 	const struct spec_settings *settings, struct spec_error *error)
 {
-	enum spec_status status;
+	const struct spec_reading_format *format;
+	struct spec_reader *reader;
+	struct spec_source source;
+	enum spec_status status =
+		spec_source_open(&source, path, (size_t)settings->limits.header, error);
 
-	*reader = spec_memory_new(1, sizeof **reader, "readers", error);
-	if (!*reader)
-		return SPEC_ENOMEM;
-	(*reader)->source.fd = -1;
-	status = open_reader(*reader, path, settings, error);
-	if (status != SPEC_OK) {
-		spec_reader_close(*reader);
-		*reader = NULL;
+	*result = NULL;
+	if (status != SPEC_OK)
+		return status;
+	status = find_format(&source, path, &format, error);
+	reader = status == SPEC_OK
+			 ? spec_memory_new(1, format->reader_bytes, "readers", error)
+			 : NULL;
+	if (!reader) {
+		spec_source_close(&source);
+		return status == SPEC_OK ? SPEC_ENOMEM : status;
 	}
+	reader->format = format;
+	reader->source = source;
+	reader->limits = settings->limits;
+	status = format->open(reader, path, settings, error);
+	if (status == SPEC_OK)
+		*result = reader;
+	else
+		spec_reader_close(reader);
 	return status;
 }
 
@@ -393,19 +153,17 @@ spec_reader_close(struct spec_reader *reader)
 {
 	if (!reader)
 		return;
-	if (reader->context)
-		exr_finish(&reader->context);
+	reader->format->close(reader);
 	spec_source_close(&reader->source);
 	spec_image_clear(&reader->image);
-	free(reader->offset);
-	free(reader->kept);
 	free(reader);
 }
 
 enum spec_status
 spec_reader_drain(struct spec_reader *reader, struct spec_error *error)
 {
-	return spec_source_drain(&reader->source, error);
+	return reader->format->drain ? reader->format->drain(reader, error)
+				     : spec_source_drain(&reader->source, error);
 }
 
 const struct spec_image *
@@ -420,6 +178,12 @@ spec_reader_name(const struct spec_reader *reader)
 	return reader->source.name;
 }
 
+const char *
+spec_reader_format(const struct spec_reader *reader)
+{
+	return reader->format->name;
+}
+
 int
 spec_reader_chunk_lines(const struct spec_reader *reader)
 {
@@ -430,4 +194,74 @@ size_t
 spec_reader_line_bytes(const struct spec_reader *reader)
 {
 	return reader->line_bytes;
+}
+
+/* ---- decoders ---- */
+
+enum spec_status
+spec_decoder_open(struct spec_decoder **result, struct spec_reader *reader,
+	const unsigned char *wanted, struct spec_error *error)
+{
+	const struct spec_reading_format *format = reader->format;
+	struct spec_decoder *decoder =
+		spec_memory_new(1, format->decoder_bytes, "decoders", error);
+	size_t channels = reader->image.channels;
+	enum spec_status status = SPEC_OK;
+
+	*result = NULL;
+	if (!decoder)
+		return SPEC_ENOMEM;
+	decoder->reader = reader;
+	decoder->wanted = spec_memory_new(channels, 1, "channels", error);
+	if (!decoder->wanted)
+		status = SPEC_ENOMEM;
+	for (size_t i = 0; status == SPEC_OK && i < channels; i++)
+		decoder->wanted[i] = wanted ? wanted[i] : 1;
+	if (status == SPEC_OK && format->open_decoder)
+		status = format->open_decoder(decoder, error);
+	if (status == SPEC_OK)
+		*result = decoder;
+	else
+		spec_decoder_close(decoder);
+	return status;
+}
+
+void
+spec_decoder_close(struct spec_decoder *decoder)
+{
+	if (!decoder)
+		return;
+	if (decoder->reader->format->close_decoder)
+		decoder->reader->format->close_decoder(decoder);
+	free(decoder->wanted);
+	free(decoder->packed.bytes);
+	free(decoder->converted.bytes);
+	free(decoder->row);
+	free(decoder);
+}
+
+enum spec_status
+spec_decoder_fetch(struct spec_decoder *decoder, int y0, int y1, struct spec_error *error)
+{
+	decoder->y0 = y0;
+	decoder->lines = y1 - y0;
+	return decoder->reader->format->fetch(decoder, error);
+}
+
+enum spec_status
+spec_decoder_decode(struct spec_decoder *decoder, struct spec_error *error)
+{
+	void *rows = decoder->row;
+	enum spec_status status = spec_memory_grow(&rows, &decoder->row_room,
+		decoder->lines * decoder->reader->image.channels, sizeof *decoder->row,
+		"rows", error);
+
+	decoder->row = rows;
+	return status == SPEC_OK ? decoder->reader->format->decode(decoder, error) : status;
+}
+
+const float *
+spec_decoder_row(const struct spec_decoder *decoder, int y, size_t channel)
+{
+	return decoder->row[(y - decoder->y0) * decoder->reader->image.channels + channel];
 }

@@ -1,7 +1,6 @@
 /*
- * Reading a spectral EXR image by blocks of scanlines: from a file at any place,
- * from a pipe forward only. Scanlines and tiles, every compression but DWA, one
- * part of several.
+ * Reading an image by blocks of scanlines: from a file at any place, from a pipe forward
+ * only. Of OpenEXR scanlines and tiles, every compression but DWA, one part of several.
  */
 #ifndef SPEC_IMAGE_READER_H
 #define SPEC_IMAGE_READER_H
@@ -26,6 +25,9 @@ enum spec_status spec_reader_drain(struct spec_reader *reader, struct spec_error
 
 const struct spec_image *spec_reader_image(const struct spec_reader *reader);
 const char *spec_reader_name(const struct spec_reader *reader);
+
+/* The format's name, such as "OpenEXR". */
+const char *spec_reader_format(const struct spec_reader *reader);
 
 /* Lines that are stored, and so decoded, together: 1, 16, 32, or a tile's height. */
 int spec_reader_chunk_lines(const struct spec_reader *reader);

@@ -75,7 +75,7 @@ largest=2147483647
 @test "a text" {
   echo 'not an image, but longer than a magic number' >text.exr
   refused text.exr
-  [[ $stderr = *'is not an OpenEXR file' ]]
+  [[ $stderr = *'is no image in a format that is read here' ]]
 }
 
 @test "one byte of the magic number, and all four alone" {

@@ -6,61 +6,41 @@
 #include "image/codec.h"
 #include "image/exr.h"
 #include "image/half.h"
-#include "image/reading.h"
+#include "image/exrreading.h"
 
 _Static_assert(
 	__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "chunks are used as they are stored");
 
 enum spec_status
-spec_decoder_open(struct spec_decoder **result, struct spec_reader *reader,
-	const unsigned char *wanted, struct spec_error *error)
+exr_open_decoder(struct spec_decoder *base, struct spec_error *error)
 {
-	struct spec_decoder *decoder =
-		spec_memory_new(1, sizeof *decoder, "decoders", error);
-	size_t channels = reader->image.channels;
+	struct exr_decoder *decoder = (struct exr_decoder *)base;
 
-	*result = decoder;
-	if (!decoder)
-		return SPEC_ENOMEM;
-	decoder->reader = reader;
-	decoder->wanted = spec_memory_new(channels, 1, "channels", error);
 	decoder->decompressor = libdeflate_alloc_decompressor();
-	if (!decoder->wanted || !decoder->decompressor) {
-		spec_decoder_close(decoder);
-		*result = NULL;
-		return spec_error_set(error, SPEC_ENOMEM, "out of memory for a decoder");
-	}
-	for (size_t i = 0; i < channels; i++)
-		decoder->wanted[i] = wanted ? wanted[i] : 1;
-	return SPEC_OK;
+	return decoder->decompressor
+		       ? SPEC_OK
+		       : spec_error_set(error, SPEC_ENOMEM, "out of memory for a decoder");
 }
 
 void
-spec_decoder_close(struct spec_decoder *decoder)
+exr_close_decoder(struct spec_decoder *base)
 {
-	if (!decoder)
-		return;
+	struct exr_decoder *decoder = (struct exr_decoder *)base;
+
 	if (decoder->started) {
 		/* These are ours; the library would free them. */
 		decoder->pipeline.packed_buffer = decoder->pipeline.unpacked_buffer = NULL;
 		decoder->pipeline.packed_alloc_size =
 			decoder->pipeline.unpacked_alloc_size = 0;
-		exr_decoding_destroy(decoder->reader->context, &decoder->pipeline);
+		exr_decoding_destroy(exr_reader_of(decoder)->context, &decoder->pipeline);
 	}
 	if (decoder->decompressor)
 		libdeflate_free_decompressor(decoder->decompressor);
-	free(decoder->wanted);
-	free(decoder->packed.bytes);
 	free(decoder->unpacked.bytes);
 	free(decoder->tile.bytes);
-	free(decoder->converted.bytes);
 	free(decoder->chunk);
 	free(decoder->line);
-	free(decoder->row);
-	free(decoder);
 }
-
-/* Grows a buffer, keeping the first kept bytes. */
 
 static exr_result_t
 read_nothing(exr_decode_pipeline_t *pipeline)
@@ -70,10 +50,10 @@ read_nothing(exr_decode_pipeline_t *pipeline)
 }
 
 static exr_result_t
-start_pipeline(struct spec_decoder *decoder, const exr_chunk_info_t *info)
+start_pipeline(struct exr_decoder *decoder, const exr_chunk_info_t *info)
 {
-	exr_const_context_t context = decoder->reader->context;
-	int part = decoder->reader->part;
+	exr_const_context_t context = exr_reader_of(decoder)->context;
+	int part = exr_reader_of(decoder)->part;
 	exr_decode_pipeline_t *pipeline = &decoder->pipeline;
 	exr_result_t result;
 
@@ -96,14 +76,14 @@ start_pipeline(struct spec_decoder *decoder, const exr_chunk_info_t *info)
 
 /* Decodes one chunk into room for its unpacked size, or leaves it where it is; *bytes: where. */
 static enum spec_status
-decode_chunk(struct spec_decoder *decoder, const struct spec_fetched *chunk,
+decode_chunk(struct exr_decoder *decoder, const struct exr_fetched *chunk,
 	unsigned char *room, const unsigned char **bytes, struct spec_error *error)
 {
 	const exr_chunk_info_t *info = &chunk->info;
 	exr_decode_pipeline_t *pipeline = &decoder->pipeline;
 	exr_result_t result;
 
-	*bytes = decoder->packed.bytes + chunk->at;
+	*bytes = decoder->base.packed.bytes + chunk->at;
 	/*
 	 * A chunk that did not shrink is stored. OpenEXR's C++ library holds that for
 	 * B44 too, where OpenEXRCore 3.1 does not.
@@ -111,40 +91,41 @@ decode_chunk(struct spec_decoder *decoder, const struct spec_fetched *chunk,
 	if (info->packed_size == info->unpacked_size)
 		return SPEC_OK;
 	spec_exr_forget();
-	spec_exr_allow(decoder->reader->limits.memory, "memory");
+	spec_exr_allow(decoder->base.reader->limits.memory, "memory");
 	result = start_pipeline(decoder, info);
-	pipeline->packed_buffer = decoder->packed.bytes + chunk->at;
+	pipeline->packed_buffer = decoder->base.packed.bytes + chunk->at;
 	pipeline->packed_alloc_size = 0;
 	pipeline->unpacked_buffer = room;
 	pipeline->unpacked_alloc_size = info->unpacked_size;
 	if (result == EXR_ERR_SUCCESS)
-		result = exr_decoding_run(
-			decoder->reader->context, decoder->reader->part, pipeline);
+		result = exr_decoding_run(exr_reader_of(decoder)->context,
+			exr_reader_of(decoder)->part, pipeline);
 	*bytes = room;
 	pipeline->packed_buffer = pipeline->unpacked_buffer = NULL;
 	pipeline->packed_alloc_size = pipeline->unpacked_alloc_size = 0;
 	if (result == EXR_ERR_OUT_OF_MEMORY || spec_exr_has_note())
-		return spec_exr_error(result, decoder->reader->source.name, error);
+		return spec_exr_error(result, decoder->base.reader->source.name, error);
 	if (result != EXR_ERR_SUCCESS)
 		return spec_error_set(error, SPEC_EFORMAT,
-			"%s: the data of line %d are damaged", decoder->reader->source.name,
-			decoder->reader->tiled ? decoder->y0 : info->start_y);
+			"%s: the data of line %d are damaged",
+			decoder->base.reader->source.name,
+			exr_reader_of(decoder)->tiled ? decoder->base.y0 : info->start_y);
 	return SPEC_OK;
 }
 
 static enum spec_status
-decode_scanlines(struct spec_decoder *decoder, struct spec_error *error)
+decode_scanlines(struct exr_decoder *decoder, struct spec_error *error)
 {
-	const struct spec_reader *reader = decoder->reader;
+	const struct exr_reader *reader = exr_reader_of(decoder);
 	size_t total = 0, used = 0;
 	enum spec_status status;
 
 	for (size_t i = 0; i < decoder->chunks; i++) {
 		const exr_chunk_info_t *info = &decoder->chunk[i].info;
 
-		if (info->unpacked_size != reader->line_bytes * (size_t)info->height)
+		if (info->unpacked_size != reader->base.line_bytes * (size_t)info->height)
 			return spec_error_set(error, SPEC_EFORMAT,
-				"%s: line %d has a wrong size", reader->source.name,
+				"%s: line %d has a wrong size", reader->base.source.name,
 				info->start_y);
 		if (info->packed_size != info->unpacked_size)
 			total += spec_reading_align(info->unpacked_size);
@@ -159,11 +140,11 @@ decode_scanlines(struct spec_decoder *decoder, struct spec_error *error)
 		if (info->packed_size != info->unpacked_size)
 			used += spec_reading_align(info->unpacked_size);
 		for (int line = 0; line < info->height && status == SPEC_OK; line++) {
-			int row = info->start_y + line - decoder->y0;
+			int row = info->start_y + line - decoder->base.y0;
 
-			if (row >= 0 && row < decoder->lines)
+			if (row >= 0 && row < decoder->base.lines)
 				decoder->line[row] =
-					bytes + (size_t)line * reader->line_bytes;
+					bytes + (size_t)line * reader->base.line_bytes;
 		}
 	}
 	return status;
@@ -171,19 +152,19 @@ decode_scanlines(struct spec_decoder *decoder, struct spec_error *error)
 
 /* Puts a tile's samples where they stand in the lines: line, channel, sample. */
 static void
-place_tile(struct spec_decoder *decoder, const exr_chunk_info_t *info, size_t first_line,
+place_tile(struct exr_decoder *decoder, const exr_chunk_info_t *info, size_t first_line,
 	const unsigned char *bytes)
 {
-	const struct spec_reader *reader = decoder->reader;
+	const struct exr_reader *reader = exr_reader_of(decoder);
 	size_t x = (size_t)info->start_x * reader->tile_width;
 
 	for (size_t line = 0; line < (size_t)info->height; line++) {
-		unsigned char *to =
-			decoder->unpacked.bytes + (first_line + line) * reader->line_bytes;
+		unsigned char *to = decoder->unpacked.bytes +
+				    (first_line + line) * reader->base.line_bytes;
 
-		for (size_t i = 0; i < reader->image.channels; i++) {
+		for (size_t i = 0; i < reader->base.image.channels; i++) {
 			size_t size =
-				spec_exr_sample_bytes(reader->image.channel[i].sample);
+				spec_exr_sample_bytes(reader->base.image.channel[i].sample);
 
 			memcpy(to + reader->offset[i] + x * size, bytes,
 				info->width * size);
@@ -193,28 +174,29 @@ place_tile(struct spec_decoder *decoder, const exr_chunk_info_t *info, size_t fi
 }
 
 static enum spec_status
-decode_tiles(struct spec_decoder *decoder, struct spec_error *error)
+decode_tiles(struct exr_decoder *decoder, struct spec_error *error)
 {
-	const struct spec_reader *reader = decoder->reader;
+	const struct exr_reader *reader = exr_reader_of(decoder);
 	size_t tile_rows = decoder->chunks / reader->tiles_across;
-	size_t above = decoder->y0 - spec_reading_chunk_start(reader, decoder->y0);
+	size_t above = decoder->base.y0 - exr_chunk_start(reader, decoder->base.y0);
 	enum spec_status status = spec_reading_reserve(&decoder->unpacked,
-		tile_rows * reader->chunk_lines * reader->line_bytes, 0, error);
+		tile_rows * reader->base.chunk_lines * reader->base.line_bytes, 0, error);
 
 	for (size_t i = 0; i < decoder->chunks && status == SPEC_OK; i++) {
-		const struct spec_fetched *chunk = &decoder->chunk[i];
-		size_t first_line = i / reader->tiles_across * reader->chunk_lines;
+		const struct exr_fetched *chunk = &decoder->chunk[i];
+		size_t first_line = i / reader->tiles_across * reader->base.chunk_lines;
 		size_t pixels = (size_t)chunk->info.width * chunk->info.height;
 		const unsigned char *bytes;
 
 		if (chunk->info.unpacked_size !=
-				pixels * (reader->line_bytes /
-						 spec_window_width(&reader->image.data)) ||
+				pixels * (reader->base.line_bytes /
+						 spec_window_width(
+							 &reader->base.image.data)) ||
 			chunk->info.start_x * (long long)reader->tile_width +
 					chunk->info.width >
-				(long long)spec_window_width(&reader->image.data))
+				(long long)spec_window_width(&reader->base.image.data))
 			return spec_error_set(error, SPEC_EFORMAT,
-				"%s: a tile has a wrong size", reader->source.name);
+				"%s: a tile has a wrong size", reader->base.source.name);
 		status = spec_reading_reserve(
 			&decoder->tile, chunk->info.unpacked_size, 0, error);
 		if (status == SPEC_OK)
@@ -223,21 +205,21 @@ decode_tiles(struct spec_decoder *decoder, struct spec_error *error)
 		if (status == SPEC_OK)
 			place_tile(decoder, &chunk->info, first_line, bytes);
 	}
-	for (int row = 0; row < decoder->lines && status == SPEC_OK; row++)
+	for (int row = 0; row < decoder->base.lines && status == SPEC_OK; row++)
 		decoder->line[row] =
-			decoder->unpacked.bytes + (above + row) * reader->line_bytes;
+			decoder->unpacked.bytes + (above + row) * reader->base.line_bytes;
 	return status;
 }
 
 /* Bands are numbers, whatever they are stored as; a UINT that is no band stays bits. */
 static int
-needs_copy(const struct spec_reader *reader, size_t index)
+needs_copy(const struct exr_reader *reader, size_t index)
 {
-	const struct spec_channel *channel = &reader->image.channel[index];
+	const struct spec_channel *channel = &reader->base.image.channel[index];
 
 	return channel->sample == SPEC_SAMPLE_HALF ||
 	       (channel->sample == SPEC_SAMPLE_UINT && channel->role != SPEC_ROLE_OTHER) ||
-	       reader->offset[index] % 4 != 0 || reader->line_bytes % 4 != 0;
+	       reader->offset[index] % 4 != 0 || reader->base.line_bytes % 4 != 0;
 }
 
 static void
@@ -261,10 +243,10 @@ copy_row(const struct spec_channel *channel, float *to, const unsigned char *fro
 
 /* What can be used where it lies is; the rest is copied. */
 static enum spec_status
-convert(struct spec_decoder *decoder, struct spec_error *error)
+convert(struct exr_decoder *decoder, struct spec_error *error)
 {
-	const struct spec_reader *reader = decoder->reader;
-	const struct spec_image *image = &reader->image;
+	const struct exr_reader *reader = exr_reader_of(decoder);
+	const struct spec_image *image = &reader->base.image;
 	size_t width = spec_window_width(&image->data),
 	       room = spec_reading_align(width * sizeof(float));
 	size_t copies = 0;
@@ -272,19 +254,19 @@ convert(struct spec_decoder *decoder, struct spec_error *error)
 	unsigned char *to;
 
 	for (size_t i = 0; i < image->channels; i++)
-		copies += decoder->wanted[i] && needs_copy(reader, i);
+		copies += decoder->base.wanted[i] && needs_copy(reader, i);
 	status = spec_reading_reserve(
-		&decoder->converted, copies * decoder->lines * room, 0, error);
+		&decoder->base.converted, copies * decoder->base.lines * room, 0, error);
 	if (status != SPEC_OK)
 		return status;
-	to = decoder->converted.bytes;
-	for (int row = 0; row < decoder->lines; row++) {
+	to = decoder->base.converted.bytes;
+	for (int row = 0; row < decoder->base.lines; row++) {
 		for (size_t i = 0; i < image->channels; i++) {
 			const unsigned char *from = decoder->line[row] + reader->offset[i];
-			float **result = &decoder->row[row * image->channels + i];
+			float **result = &decoder->base.row[row * image->channels + i];
 
 			*result = NULL;
-			if (!decoder->wanted[i])
+			if (!decoder->base.wanted[i])
 				continue;
 			if (!needs_copy(reader, i)) {
 				*result = (float *)(void *)from;
@@ -299,27 +281,16 @@ convert(struct spec_decoder *decoder, struct spec_error *error)
 }
 
 enum spec_status
-spec_decoder_decode(struct spec_decoder *decoder, struct spec_error *error)
+exr_decode(struct spec_decoder *base, struct spec_error *error)
 {
-	void *lines = decoder->line, *rows = decoder->row;
-	enum spec_status status = spec_memory_grow(&lines, &decoder->line_room,
-		decoder->lines, sizeof *decoder->line, "lines", error);
+	struct exr_decoder *decoder = (struct exr_decoder *)base;
+	void *lines = decoder->line;
+	enum spec_status status = spec_memory_grow(&lines, &decoder->line_room, base->lines,
+		sizeof *decoder->line, "lines", error);
 
 	decoder->line = lines;
-	if (status == SPEC_OK) {
-		status = spec_memory_grow(&rows, &decoder->row_room,
-			decoder->lines * decoder->reader->image.channels,
-			sizeof *decoder->row, "rows", error);
-		decoder->row = rows;
-	}
 	if (status == SPEC_OK)
-		status = decoder->reader->tiled ? decode_tiles(decoder, error)
-						: decode_scanlines(decoder, error);
+		status = exr_reader_of(decoder)->tiled ? decode_tiles(decoder, error)
+						       : decode_scanlines(decoder, error);
 	return status == SPEC_OK ? convert(decoder, error) : status;
-}
-
-const float *
-spec_decoder_row(const struct spec_decoder *decoder, int y, size_t channel)
-{
-	return decoder->row[(y - decoder->y0) * decoder->reader->image.channels + channel];
 }
