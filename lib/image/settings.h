@@ -17,6 +17,7 @@ struct spec_limits {
 struct spec_settings {
 	struct spec_limits limits;
 	const char *output; /* "-" is standard output */
+	const char *format; /* of images that are written, or null: by the output's suffix */
 	const char *part;   /* null: the only part with bands */
 	int compression;    /* as OpenEXR numbers them, or -1: the default */
 	int half;

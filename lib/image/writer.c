@@ -1,18 +1,19 @@
 #include "image/writer.h"
 
-#include <errno.h>
-#include <openexr.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
+#include <strings.h>
 
 #include "base/memory.h"
 #include "image/exr.h"
 #include "image/writing.h"
 
-#define MOST_CHANNELS 32767 /* exr_add_channel takes more, and fails later */
-#define SHORT_NAME 31       /* bytes; longer ones set the file's long-name flag */
-#define COPY_BYTES (1 << 20)
+/* The first is the one of standard output and of names without a suffix. */
+static const struct spec_writing_format *const formats[] = {&spec_writing_exr};
+
+#define FORMATS (sizeof formats / sizeof *formats)
+
+/* ---- what formats use ---- */
 
 int
 spec_writing_lines(const struct spec_writer *writer, int index)
@@ -23,161 +24,85 @@ spec_writing_lines(const struct spec_writer *writer, int index)
 	return left < writer->chunk_lines ? (int)left : writer->chunk_lines;
 }
 
-/*
- * An uncompressed chunk has a known size: y and size, four bytes each, then the
- * lines. So the table can go out before the chunks that it points to.
- */
-static enum spec_status
-write_predicted_table(struct spec_writer *writer, struct spec_error *error)
+enum spec_status
+spec_writing_append(struct spec_packer *packer, int index, struct spec_error *error)
 {
-	uint64_t at = writer->output->position + 8 * writer->chunks;
-
-	writer->table =
-		spec_memory_new(writer->chunks, sizeof *writer->table, "chunks", error);
-	if (!writer->table)
-		return SPEC_ENOMEM;
-	writer->table_at = writer->output->position;
-	for (size_t i = 0; i < writer->chunks; i++) {
-		writer->table[i] = at;
-		at += 8 + writer->line_bytes * spec_writing_lines(writer, (int)i);
-	}
-	return spec_output_write(writer->output, writer->table, 8 * writer->chunks, error);
+	(void)index;
+	return spec_output_write(
+		packer->writer->output, packer->chunk, packer->chunk_bytes, error);
 }
 
-static enum spec_status
-write_stream(struct spec_writer *writer, const void *bytes, size_t size, uint64_t offset,
-	struct spec_error *error)
-{
-	struct spec_output *output = writer->output;
-	enum spec_status status = SPEC_OK;
+/* ---- the choice of a format ---- */
 
-	if (writer->table && offset == writer->table_at) {
-		/* The table at the end: it must be the one that was predicted. */
-		if (size == 8 * writer->chunks && memcmp(bytes, writer->table, size) == 0)
-			return SPEC_OK;
-		return spec_error_set(error, SPEC_EFORMAT,
-			"%s: the chunks are not where they were announced", output->path);
-	}
-	if (offset > (uint64_t)output->position && !writer->table)
-		status = write_predicted_table(writer, error);
-	if (status == SPEC_OK && offset != (uint64_t)output->position)
-		status = spec_error_set(error, SPEC_EFORMAT,
-			"%s: cannot go back in a stream", output->path);
-	return status == SPEC_OK ? spec_output_write(output, bytes, size, error) : status;
-}
-
-static int64_t
-write_bytes(exr_const_context_t context, void *data, const void *bytes, uint64_t size,
-	uint64_t offset, exr_stream_error_func_ptr_t report)
-{
-	struct spec_writer *writer = data;
-	struct spec_error error;
-	enum spec_status status;
-
-	(void)context;
-	(void)report;
-	if (writer->streaming)
-		status = write_stream(writer, bytes, size, offset, &error);
-	else
-		status = spec_output_write_at(
-			writer->scratched ? &writer->scratch : writer->output, bytes, size,
-			(int64_t)offset, &error);
-	if (status == SPEC_OK)
-		return (int64_t)size;
-	spec_exr_note(&error);
-	return -1;
-}
-
-static enum spec_status
-failed(const struct spec_writer *writer, exr_result_t result, struct spec_error *error)
-{
-	return spec_exr_error(result, writer->output->path, error);
-}
-
+/* Whether a name is in a list with blanks between. */
 static int
-has_long_name(const struct spec_image *image)
+is_listed(const char *list, const char *name)
 {
-	for (size_t i = 0; i < image->channels; i++) {
-		if (strlen(image->channel[i].name) > SHORT_NAME)
+	size_t length = strlen(name);
+
+	for (const char *at = list; *at; at += strspn(at, " ")) {
+		size_t size = strcspn(at, " ");
+
+		if (size == length && strncasecmp(at, name, length) == 0)
 			return 1;
-	}
-	for (size_t i = 0; i < image->attributes; i++) {
-		if (strlen(image->attribute[i].name) > SHORT_NAME ||
-			strlen(image->attribute[i].type) > SHORT_NAME)
-			return 1;
+		at += size;
 	}
 	return 0;
 }
 
-static exr_attr_box2i_t
-box_of(const struct spec_window *window)
+/* The suffix of a path's last component with its dot, or "". */
+static const char *
+suffix_of(const char *path)
 {
-	exr_attr_box2i_t box;
+	const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
+	const char *dot = strrchr(name, '.');
 
-	box.min.x = window->x0;
-	box.min.y = window->y0;
-	box.max.x = window->x1 - 1;
-	box.max.y = window->y1 - 1;
-	return box;
-}
-
-static exr_result_t
-set_windows(struct spec_writer *writer, int part)
-{
-	const struct spec_image *image = writer->image;
-	exr_attr_box2i_t data = box_of(&image->data), display = box_of(&image->display);
-	exr_attr_v2f_t centre;
-
-	centre.x = image->screen_window_x;
-	centre.y = image->screen_window_y;
-	return exr_initialize_required_attr(writer->context, part, &display, &data,
-		image->pixel_aspect_ratio, &centre, image->screen_window_width,
-		EXR_LINEORDER_INCREASING_Y, (exr_compression_t)writer->compression);
+	return dot && dot > name ? dot : "";
 }
 
 static enum spec_status
-write_header(struct spec_writer *writer, struct spec_error *error)
+find_format(const char *name, const struct spec_writing_format **format,
+	struct spec_error *error)
 {
-	const struct spec_image *image = writer->image;
-	exr_context_initializer_t setup = EXR_DEFAULT_CONTEXT_INITIALIZER;
-	enum spec_status status;
-	exr_result_t result;
-	int part, lines;
+	char known[256] = "";
 
-	setup.error_handler_fn = spec_exr_report;
-	setup.user_data = writer;
-	setup.write_fn = write_bytes;
-	spec_exr_forget();
-	result = exr_start_write(
-		&writer->context, writer->output->path, EXR_WRITE_FILE_DIRECTLY, &setup);
-	if (result == EXR_ERR_SUCCESS && has_long_name(image))
-		result = exr_set_longname_support(writer->context, 1);
-	if (result == EXR_ERR_SUCCESS)
-		result = exr_add_part(
-			writer->context, image->part, EXR_STORAGE_SCANLINE, &part);
-	if (result == EXR_ERR_SUCCESS)
-		result = set_windows(writer, part);
-	for (size_t i = 0; i < image->channels && result == EXR_ERR_SUCCESS; i++)
-		result = exr_add_channel(writer->context, part, image->channel[i].name,
-			(exr_pixel_type_t)image->channel[i].sample,
-			image->channel[i].linear ? EXR_PERCEPTUALLY_LINEAR
-						 : EXR_PERCEPTUALLY_LOGARITHMIC,
-			1, 1);
-	if (result != EXR_ERR_SUCCESS)
-		return failed(writer, result, error);
-	status = spec_exr_set_attributes(
-		writer->context, part, image, writer->output->path, error);
-	if (status != SPEC_OK)
-		return status;
-	result = exr_write_header(writer->context);
-	if (result == EXR_ERR_SUCCESS)
-		result = exr_get_scanlines_per_chunk(writer->context, part, &lines);
-	if (result != EXR_ERR_SUCCESS)
-		return failed(writer, result, error);
-	writer->chunk_lines = lines;
-	writer->chunks = (spec_window_height(&image->data) + lines - 1) / lines;
+	for (size_t i = 0; i < FORMATS; i++) {
+		if (strcmp(formats[i]->name, name) == 0) {
+			*format = formats[i];
+			return SPEC_OK;
+		}
+		strcat(strcat(known, i > 0 ? " " : ""), formats[i]->name);
+	}
+	return spec_error_set(error, SPEC_EUSAGE, "unknown format '%s' (%s)", name, known);
+}
+
+enum spec_status
+spec_writer_choose(const char *path, const char *name,
+	const struct spec_writing_format **format, struct spec_error *error)
+{
+	const char *suffix = suffix_of(path);
+
+	*format = formats[0];
+	if (name)
+		return find_format(name, format, error);
+	if (strcmp(path, "-") == 0 || strncmp(path, "/dev/", 5) == 0)
+		return SPEC_OK;
+	for (size_t i = 0; i < FORMATS; i++) {
+		if (is_listed(formats[i]->suffixes, suffix)) {
+			*format = formats[i];
+			return SPEC_OK;
+		}
+	}
 	return SPEC_OK;
 }
+
+int
+spec_writer_makes_files(const struct spec_writing_format *format)
+{
+	return format->makes_files;
+}
+
+/* ---- writers ---- */
 
 static enum spec_status
 measure_lines(struct spec_writer *writer, struct spec_error *error)
@@ -204,84 +129,49 @@ measure_lines(struct spec_writer *writer, struct spec_error *error)
 	return SPEC_OK;
 }
 
-static enum spec_status
-settle_output(struct spec_writer *writer, int compression, struct spec_error *error)
-{
-	struct spec_output *output = writer->output;
-
-	if (output->terminal)
-		return spec_error_set(error, SPEC_EUSAGE,
-			"refusing to write an image to a terminal; use -o FILE or a pipe");
-	if (writer->image->channels > MOST_CHANNELS)
-		return spec_error_set(error, SPEC_ERANGE,
-			"%s: %zu channels are more than %d", output->path,
-			writer->image->channels, MOST_CHANNELS);
-	if (writer->image->channels == 0)
-		return spec_error_set(
-			error, SPEC_EUSAGE, "%s: the image has no channel", output->path);
-	if (compression < 0)
-		compression = output->seekable ? EXR_COMPRESSION_ZIP : EXR_COMPRESSION_NONE;
-	writer->compression = compression;
-	writer->streaming = !output->seekable && compression == EXR_COMPRESSION_NONE;
-	if (!output->seekable && !writer->streaming) {
-		writer->scratch.path = output->path;
-		if (spec_output_scratch(&writer->scratch.fd, error) != SPEC_OK)
-			return error ? error->status : SPEC_EIO;
-		writer->scratched = 1;
-	}
-	return SPEC_OK;
-}
-
 enum spec_status
 spec_writer_open(struct spec_writer **result, const struct spec_image *image,
 	struct spec_output *output, int compression, struct spec_error *error)
 {
-	struct spec_writer *writer = spec_memory_new(1, sizeof *writer, "writers", error);
-	enum spec_status status;
+	return spec_writer_open_as(
+		result, &spec_writing_exr, image, output, output->path, compression, error);
+}
+
+enum spec_status
+spec_writer_open_as(struct spec_writer **result, const struct spec_writing_format *format,
+	const struct spec_image *image, struct spec_output *output, const char *path,
+	int compression, struct spec_error *error)
+{
+	struct spec_writer *writer =
+		spec_memory_new(1, format->writer_bytes, "writers", error);
+	enum spec_status status = SPEC_OK;
 
 	*result = NULL;
 	if (!writer)
 		return SPEC_ENOMEM;
+	writer->format = format;
 	writer->image = image;
 	writer->output = output;
+	writer->path = output ? output->path : path;
+	writer->compression = compression;
+	writer->chunk_lines = 1;
 	pthread_mutex_init(&writer->lock, NULL);
 	spec_turnstile_init(&writer->turnstile);
-	status = settle_output(writer, compression, error);
+	if (image->channels == 0)
+		status = spec_error_set(
+			error, SPEC_EUSAGE, "%s: the image has no channel", writer->path);
 	if (status == SPEC_OK)
 		status = measure_lines(writer, error);
 	if (status == SPEC_OK)
-		status = write_header(writer, error);
+		status = format->open(writer, error);
 	if (status != SPEC_OK) {
 		spec_writer_close(writer);
 		return status;
 	}
+	writer->chunks = (spec_window_height(&image->data) + writer->chunk_lines - 1) /
+			 writer->chunk_lines;
 	*result = writer;
 	return SPEC_OK;
-}
-
-static enum spec_status
-copy_scratch(struct spec_writer *writer, struct spec_error *error)
-{
-	char *buffer = spec_memory_new(COPY_BYTES, 1, "bytes", error);
-	enum spec_status status = buffer ? SPEC_OK : SPEC_ENOMEM;
-	int64_t offset = 0;
-	ssize_t got = 1;
-
-	while (status == SPEC_OK && got > 0) {
-		got = pread(writer->scratch.fd, buffer, COPY_BYTES, offset);
-		if (got < 0 && errno == EINTR) {
-			got = 1;
-			continue;
-		}
-		if (got < 0)
-			status = spec_error_system(
-				error, errno, "unable to read back a temporary file");
-		else
-			status = spec_output_write(writer->output, buffer, got, error);
-		offset += got;
-	}
-	free(buffer);
-	return status;
 }
 
 enum spec_status
@@ -291,13 +181,18 @@ spec_writer_finish(struct spec_writer *writer, struct spec_error *error)
 
 	if (status != SPEC_OK)
 		return status;
-	/* The library itself would call a file with lines missing a success. */
+	/* OpenEXRCore would call a file with lines missing a success. */
 	if (writer->turnstile.next != (long long)writer->chunks)
 		return spec_error_set(error, SPEC_EUSAGE,
-			"%s: %lld of %zu chunks were written", writer->output->path,
+			"%s: %lld of %zu chunks were written", writer->path,
 			writer->turnstile.next, writer->chunks);
-	/* The table went out with the last chunk; packers still need the context. */
-	return writer->scratched ? copy_scratch(writer, error) : SPEC_OK;
+	return writer->format->finish ? writer->format->finish(writer, error) : SPEC_OK;
+}
+
+enum spec_status
+spec_writer_commit(struct spec_writer *writer, struct spec_error *error)
+{
+	return writer->format->commit ? writer->format->commit(writer, error) : SPEC_OK;
 }
 
 void
@@ -305,14 +200,11 @@ spec_writer_close(struct spec_writer *writer)
 {
 	if (!writer)
 		return;
-	if (writer->context)
-		exr_finish(&writer->context);
-	if (writer->scratched)
-		close(writer->scratch.fd);
+	if (writer->format->close)
+		writer->format->close(writer);
 	for (size_t i = 0; i < writer->slots; i++)
 		free(writer->slot[i].raw);
 	free(writer->slot);
-	free(writer->table);
 	free(writer->offset);
 	pthread_mutex_destroy(&writer->lock);
 	spec_turnstile_destroy(&writer->turnstile);

@@ -1,8 +1,8 @@
 /*
- * Writing a spectral EXR image: scanlines, one part, increasing line order.
- * Lines may come from several workers in any order near each other; chunks are
- * encoded side by side and written in order. To a pipe, an uncompressed image
- * streams; a compressed one is written when it is complete.
+ * Writing a spectral image. Lines may come from several workers in any order near each
+ * other; chunks of them are encoded side by side and written in order. OpenEXR: scanlines,
+ * one part, increasing line order; to a pipe, an uncompressed image streams, a compressed
+ * one is written when it is complete.
  */
 #ifndef SPEC_IMAGE_WRITER_H
 #define SPEC_IMAGE_WRITER_H
@@ -13,6 +13,18 @@
 #include "image/settings.h"
 
 struct spec_writer;
+struct spec_writing_format;
+
+/*
+ * The format to write to path ("-": standard output): that of name, or, where name is
+ * null, what the suffix of path says, OpenEXR where it says nothing that is known. Error
+ * (SPEC_EUSAGE): no format of that name.
+ */
+enum spec_status spec_writer_choose(const char *path, const char *name,
+	const struct spec_writing_format **format, struct spec_error *error);
+
+/* Whether the format makes its files itself, so that no output is to be opened for it. */
+int spec_writer_makes_files(const struct spec_writing_format *format);
 
 /*
  * Writes the header. The image must be indexed and live as long as the writer;
@@ -25,8 +37,21 @@ enum spec_status spec_writer_open(struct spec_writer **writer,
 	const struct spec_image *image, struct spec_output *output, int compression,
 	struct spec_error *error);
 
+/*
+ * The same in any format. output: null where the format makes its files itself, at path.
+ * compression: OpenEXR's alone.
+ * Errors: also what the format cannot hold.
+ */
+enum spec_status spec_writer_open_as(struct spec_writer **writer,
+	const struct spec_writing_format *format, const struct spec_image *image,
+	struct spec_output *output, const char *path, int compression,
+	struct spec_error *error);
+
 /* Ends the file. Error: lines are missing. */
 enum spec_status spec_writer_finish(struct spec_writer *writer, struct spec_error *error);
+
+/* After the output has been committed: gives files beside it their names. */
+enum spec_status spec_writer_commit(struct spec_writer *writer, struct spec_error *error);
 void spec_writer_close(struct spec_writer *writer);
 
 /* Lines that are encoded together, and bytes of one before that. */

@@ -1,9 +1,11 @@
-/* Inside writer.c and packer.c alone: what writers and packers hold. */
+/*
+ * What a format of files is to writer.c and packer.c: one table of functions each. These
+ * two gather lines into chunks, side by side, and see to it that chunks are written in
+ * order; a format writes the header, encodes chunks and puts them into the file.
+ */
 #ifndef SPEC_IMAGE_WRITING_H
 #define SPEC_IMAGE_WRITING_H
 
-#include <libdeflate.h>
-#include <openexr.h>
 #include <pthread.h>
 
 #include "base/parallel.h"
@@ -13,44 +15,83 @@
 struct spec_slot {
 	int index; /* of the chunk, or -1: free */
 	int missing;
-	unsigned char *raw;
+	unsigned char *raw; /* line by line, in each channel by channel, the samples */
 };
 
+/* A format's own writer begins with this. */
 struct spec_writer {
-	exr_context_t context;
+	const struct spec_writing_format *format;
 	const struct spec_image *image;
-	struct spec_output *output;
-	struct spec_output scratch; /* where compressed chunks wait for a pipe */
-	int streaming, scratched, compression;
-	int chunk_lines;
-	size_t line_bytes;
-	size_t *offset;
-	int direct; /* planes can lie in the chunk itself */
-	/* The stream's chunk table, predicted: it comes before the chunks. */
-	uint64_t *table;
-	uint64_t table_at;
+	struct spec_output *output; /* or null: the format makes its own of path */
+	const char *path;
+	int compression; /* OpenEXR's number, or -1 */
+	int chunk_lines; /* 1 unless the format's open says otherwise */
 	size_t chunks;
-	pthread_mutex_t lock; /* guards slot */
+	size_t line_bytes;
+	size_t *offset;       /* of each channel in a line of a slot */
+	int direct;           /* planes can lie in the chunk itself */
+	pthread_mutex_t lock; /* guards slot and overflows */
 	struct spec_slot *slot;
 	size_t slots, slot_room;
 	unsigned long long overflows; /* of the packers that are closed */
 	struct spec_turnstile turnstile;
 };
 
+/* A format's own packer begins with this. */
 struct spec_packer {
 	struct spec_writer *writer;
-	exr_encode_pipeline_t pipeline;
-	int started;
-	struct libdeflate_compressor *compressor;
-	const void *
-		chunk; /* encoded: in the pipeline or, where that is no smaller, the slot */
+	const void *chunk; /* what is to be written: the packer's, or the slot */
 	size_t chunk_bytes;
 	unsigned long long overflows; /* samples that HALF could not hold */
 	float **plane;
 	float *row; /* where planes do not lie in the chunk */
 };
 
+/* Those that are null do nothing. */
+struct spec_writing_format {
+	const char *name;                  /* as --format has it */
+	const char *suffixes;              /* of -o, with their dots, blanks between */
+	size_t writer_bytes, packer_bytes; /* of the format's own structs */
+	int makes_files; /* the files are the format's own matter: writer->output is null */
+
+	/* Refuses what the format cannot hold, and writes what comes before the lines. */
+	enum spec_status (*open)(struct spec_writer *writer, struct spec_error *error);
+	enum spec_status (*open_packer)(
+		struct spec_packer *packer, struct spec_error *error);
+
+	/* Makes packer->chunk, which is the slot's bytes, another one. Side by side. */
+	enum spec_status (*encode)(struct spec_packer *packer, int index,
+		unsigned char *raw, struct spec_error *error);
+
+	/* Writes packer->chunk, in order. */
+	enum spec_status (*write)(
+		struct spec_packer *packer, int index, struct spec_error *error);
+
+	/* When all chunks are written: what comes after them. */
+	enum spec_status (*finish)(struct spec_writer *writer, struct spec_error *error);
+
+	/* After the output was committed: files beside it get their names. */
+	enum spec_status (*commit)(struct spec_writer *writer, struct spec_error *error);
+
+	/* Both must cope with whatever a failed open left. */
+	void (*close_packer)(struct spec_packer *packer);
+	void (*close)(struct spec_writer *writer);
+};
+
+extern const struct spec_writing_format spec_writing_exr;
+
 /* Lines of a chunk: the last may have fewer. */
 int spec_writing_lines(const struct spec_writer *writer, int index);
+
+/* The first line of a chunk. */
+static inline int
+spec_writing_first_line(const struct spec_writer *writer, int index)
+{
+	return writer->image->data.y0 + index * writer->chunk_lines;
+}
+
+/* A format's write where chunks simply follow each other in the output. */
+enum spec_status spec_writing_append(
+	struct spec_packer *packer, int index, struct spec_error *error);
 
 #endif
