@@ -284,6 +284,61 @@ check_bispectral(const struct spec_image *image, const char *name, struct spec_e
 	return SPEC_OK;
 }
 
+/* The number in an attribute of one, or NaN. */
+static double
+number_of(const struct spec_attribute *attribute)
+{
+	double value = NAN;
+	float single;
+	char text[64];
+
+	if (strcmp(attribute->type, "float") == 0 && attribute->size == sizeof single) {
+		memcpy(&single, attribute->value, sizeof single);
+		return rint(single * 1e13) / 1e13; /* 550 nm, not 550.000012 */
+	}
+	if (strcmp(attribute->type, "double") == 0 && attribute->size == sizeof value)
+		memcpy(&value, attribute->value, sizeof value);
+	if (strcmp(attribute->type, "string") == 0 && attribute->size < sizeof text) {
+		memcpy(text, attribute->value, attribute->size);
+		text[attribute->size] = '\0';
+		if (spec_number_parse(text, 0, 1, "the wavelength", &value, NULL) !=
+			SPEC_OK)
+			return NAN;
+	}
+	return value;
+}
+
+/* Ocean's bands: a channel of any name, and an attribute NAME.wavelength in metres. */
+static void
+read_ocean(struct spec_image *image)
+{
+	static const char suffix[] = ".wavelength";
+
+	for (size_t i = 0; i < image->attributes; i++) {
+		const struct spec_attribute *attribute = &image->attribute[i];
+		size_t length = strlen(attribute->name), tail = sizeof suffix - 1, found;
+		double wavelength_nm;
+		char channel[256];
+
+		if (length <= tail || length - tail >= sizeof channel ||
+			strcmp(attribute->name + length - tail, suffix) != 0)
+			continue;
+		snprintf(channel, sizeof channel, "%.*s", (int)(length - tail),
+			attribute->name);
+		found = spec_image_find_channel(image, channel);
+		wavelength_nm = number_of(attribute) * 1e9;
+		if (found == image->channels ||
+			image->channel[found].naming != SPEC_NAMING_NONE ||
+			!(wavelength_nm >= SPEC_NAMES_SHORTEST_NM &&
+				wavelength_nm <= SPEC_NAMES_LONGEST_NM))
+			continue;
+		image->channel[found].naming = SPEC_NAMING_OCEAN;
+		image->channel[found].role = SPEC_ROLE_EMISSIVE;
+		image->channel[found].wavelength_nm = wavelength_nm;
+		image->channel[found].reradiated_nm = wavelength_nm;
+	}
+}
+
 static enum spec_status
 find_bands(struct spec_image *image, struct band *band, const char *name,
 	struct spec_error *error)
@@ -328,6 +383,8 @@ spec_image_index(struct spec_image *image, const char *name, struct spec_error *
 	}
 	status = sort_channels(image, name, error);
 	if (status == SPEC_OK)
+		read_ocean(image);
+	if (status == SPEC_OK)
 		status = find_bands(image, band, name, error);
 	if (status == SPEC_OK)
 		status = find_edges(image, name, error);
@@ -353,6 +410,10 @@ spec_image_rename_bands(
 		renamed = spec_memory_text(text, strlen(text), error);
 		if (!renamed)
 			return SPEC_ENOMEM;
+		if (channel->naming == SPEC_NAMING_OCEAN) {
+			snprintf(text, sizeof text, "%.80s.wavelength", channel->name);
+			spec_image_remove_attribute(image, text);
+		}
 		free(channel->name);
 		channel->name = renamed;
 		channel->naming = SPEC_NAMING_LAYOUT;

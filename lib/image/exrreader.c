@@ -8,6 +8,7 @@
 #include "base/number.h"
 #include "image/exr.h"
 #include "image/exrreading.h"
+#include "image/given.h"
 #include "image/scan.h"
 
 #define LARGEST_COORDINATE (1 << 30) /* so that widths and heights fit an int */
@@ -161,8 +162,8 @@ get_channels(struct exr_reader *reader, int part, struct spec_image *image,
 }
 
 static enum spec_status
-get_image(struct exr_reader *reader, int part, struct spec_image *image,
-	struct spec_error *error)
+get_image(struct exr_reader *reader, int part, const struct spec_settings *settings,
+	struct spec_image *image, struct spec_error *error)
 {
 	const char *part_name = NULL;
 	enum spec_status status = get_windows(reader, part, image, error);
@@ -178,6 +179,8 @@ get_image(struct exr_reader *reader, int part, struct spec_image *image,
 		image->part = spec_memory_text(part_name, strlen(part_name), error);
 		status = image->part ? SPEC_OK : SPEC_ENOMEM;
 	}
+	if (status == SPEC_OK)
+		status = spec_given_apply(image, settings, reader->base.source.name, error);
 	if (status == SPEC_OK)
 		status = spec_image_index(image, reader->base.source.name, error);
 	return status;
@@ -199,9 +202,10 @@ names_part(exr_const_context_t context, int part, const char *wanted)
 
 /* The part that was asked for, else the only one with bands. */
 static enum spec_status
-choose_part(
-	struct exr_reader *reader, const char *wanted, int parts, struct spec_error *error)
+choose_part(struct exr_reader *reader, const struct spec_settings *settings, int parts,
+	struct spec_error *error)
 {
+	const char *wanted = settings->part;
 	const char *name = reader->base.source.name;
 	enum spec_status status = SPEC_OK;
 	int spectral = 0;
@@ -215,7 +219,7 @@ choose_part(
 				reader->part = part;
 			continue;
 		}
-		status = get_image(reader, part, &image, error);
+		status = get_image(reader, part, settings, &image, error);
 		if (image.bands > 0 && spectral++ == 0)
 			reader->part = part;
 		spec_image_clear(&image);
@@ -330,9 +334,9 @@ open_reader(struct spec_reader *base, const char *path,
 	if (status == SPEC_OK && exr_get_count(reader->context, &parts) != EXR_ERR_SUCCESS)
 		status = spec_error_set(error, SPEC_EFORMAT, "%s: has no part", path);
 	if (status == SPEC_OK)
-		status = choose_part(reader, settings->part, parts, error);
+		status = choose_part(reader, settings, parts, error);
 	if (status == SPEC_OK)
-		status = get_image(reader, reader->part, &base->image, error);
+		status = get_image(reader, reader->part, settings, &base->image, error);
 	if (status == SPEC_OK)
 		status = get_storage(reader, error);
 	if (status == SPEC_OK)

@@ -58,8 +58,13 @@ spec_image_copy(
 
 		status =
 			spec_image_add_channel(copy, channel->name, channel->sample, error);
-		if (status == SPEC_OK)
-			copy->channel[i].linear = channel->linear;
+		if (status == SPEC_OK) {
+			char *name = copy->channel[i].name;
+
+			/* All of it: not every band is known by its name. */
+			copy->channel[i] = *channel;
+			copy->channel[i].name = name;
+		}
 	}
 	for (size_t i = 0; i < image->attributes && status == SPEC_OK; i++) {
 		const struct spec_attribute *attribute = &image->attribute[i];

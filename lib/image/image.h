@@ -33,7 +33,9 @@ enum spec_naming { /* of a band, by the program that wrote it */
 	SPEC_NAMING_LAYOUT, /* and pbrt-v4, colour-science */
 	SPEC_NAMING_MITSUBA,
 	SPEC_NAMING_ISET3D,
-	SPEC_NAMING_KAIST
+	SPEC_NAMING_KAIST,
+	SPEC_NAMING_OCEAN, /* by an attribute, NAME.wavelength */
+	SPEC_NAMING_GIVEN  /* by the user: given.h */
 };
 
 struct spec_channel {
@@ -141,7 +143,10 @@ size_t spec_image_nearest_band(
 /* The index of the channel of that name in an indexed image, or image->channels. */
 size_t spec_image_find_channel(const struct spec_image *image, const char *name);
 
-/* Renames the bands to the layout's names, six decimals, and indexes again. */
+/*
+ * Renames the bands to the layout's names, six decimals, and indexes again; attributes that
+ * said a band's wavelength go.
+ */
 enum spec_status spec_image_rename_bands(
 	struct spec_image *image, const char *name, struct spec_error *error);
 

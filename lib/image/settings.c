@@ -6,6 +6,7 @@
 
 #include "base/number.h"
 #include "base/parallel.h"
+#include "image/given.h"
 
 void
 spec_settings_init(struct spec_settings *settings)
@@ -19,6 +20,7 @@ spec_settings_init(struct spec_settings *settings)
 		.output = "-",
 		.compression = -1,
 		.threads = spec_parallel_processors(),
+		.read_as = SPEC_ROLE_OTHER,
 		.history = 1,
 	};
 }
@@ -86,6 +88,12 @@ spec_settings_take(struct spec_settings *settings, const char *name, const char 
 			settings->threads = (int)number;
 	} else if (strcmp(name, "part") == 0) {
 		settings->part = value;
+	} else if (strcmp(name, "name-map") == 0) {
+		settings->name_map = value;
+	} else if (strcmp(name, "wavelengths") == 0) {
+		settings->wavelengths = value;
+	} else if (strcmp(name, "read-as") == 0) {
+		status = spec_given_role(value, &settings->read_as, error);
 	} else if (strcmp(name, "compression") == 0) {
 		status = spec_settings_compression(value, &settings->compression, error);
 	} else if (strcmp(name, "half") == 0) {

@@ -19,6 +19,9 @@ struct spec_settings {
 	const char *output; /* "-" is standard output */
 	const char *format; /* of images that are written, or null: by the output's suffix */
 	const char *part;   /* null: the only part with bands */
+	/* What the user tells of bands, as given.h has it; null, OTHER: nothing. */
+	const char *name_map, *wavelengths;
+	enum spec_role read_as;
 	int compression;    /* as OpenEXR numbers them, or -1: the default */
 	int half;
 	int threads;
