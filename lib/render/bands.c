@@ -62,6 +62,19 @@ sample_curve(const struct spec_bands_grid *bands, const struct spec_curve *curve
 	return spec_curve_mean(curve, 0, rule, bands->edges_nm, bands->count, value, error);
 }
 
+/* A first bin of a wide step may reach below 0 nm, where nothing shines. */
+static void
+sample_blackbody(const struct spec_bands_grid *bands, double temperature_k, double *value)
+{
+	double from_nm = bands->edges_nm[0], within_nm[2] = {0, bands->edges_nm[1]};
+
+	spec_planck_relative_mean(temperature_k, bands->edges_nm, bands->count, value);
+	if (from_nm < 0) {
+		spec_planck_relative_mean(temperature_k, within_nm, 1, value);
+		value[0] *= within_nm[1] / (within_nm[1] - from_nm);
+	}
+}
+
 static enum spec_status
 sample_rgb(const struct spec_bands_grid *bands, const double rgb[3],
 	enum spec_bands_use use, double *value, struct spec_error *error)
@@ -79,6 +92,8 @@ sample_rgb(const struct spec_bands_grid *bands, const double rgb[3],
 	if (status == SPEC_OK && use == SPEC_BANDS_LIGHT)
 		status = spec_upsampler_mean_light(&upsampler, &sigmoid,
 			SPEC_EXTRAPOLATE_ZERO, bands->edges_nm, bands->count, value, error);
+	else if (status == SPEC_OK && use == SPEC_BANDS_INDEX)
+		spec_sigmoid_sample(&sigmoid, bands->wavelength_nm, bands->count, value);
 	else if (status == SPEC_OK)
 		spec_sigmoid_mean(&sigmoid, bands->edges_nm, bands->count, value);
 	spec_upsampler_free(&upsampler);
@@ -98,8 +113,7 @@ spec_bands_sample(const struct spec_bands_grid *bands, const struct spec_scene *
 			value[i] = spectrum->value;
 		break;
 	case SPEC_SCENE_BLACKBODY:
-		spec_planck_relative_mean(
-			spectrum->value, bands->edges_nm, bands->count, value);
+		sample_blackbody(bands, spectrum->value, value);
 		break;
 	case SPEC_SCENE_CURVE:
 		status = sample_curve(bands, &spectrum->curve, use, value, error);

@@ -1,7 +1,7 @@
 /*
  * Where rays of a film go, by pbrt-v4's conventions: the camera looks along +z of its own
- * space, x is to the right and y upwards, in a left-handed world; pixels are counted from the
- * film's upper left corner.
+ * space, x is to the right and y upwards, in a left-handed world; pixels are counted from
+ * the film's upper left corner.
  */
 #include <math.h>
 #include <setjmp.h>
@@ -117,7 +117,9 @@ test_corners(void **state)
 	}
 }
 
-/* The slopes x/z at the right edge's middle and y/z at the upper edge's, and the opposite. */
+/*
+ * The slopes x/z at the right edge's middle and y/z at the upper edge's, and the opposite.
+ */
 static void
 expect_window(struct view *view, const double window[4], const char *what)
 {
@@ -223,7 +225,8 @@ test_resolution_is_no_shape(void **state)
 
 /*
  * The ratio takes the place of the film's: of 2, the screen is -2..2 by -1..1 times
- * tan(fov / 2), on any film, whose pixels are no squares then. screenwindow comes before it.
+ * tan(fov / 2), on any film, whose pixels are no squares then. screenwindow comes before
+ * it.
  */
 static void
 test_screens(void **state)
@@ -268,9 +271,9 @@ test_screens(void **state)
 /* --- the camera's place --- */
 
 /*
- * What stands before Camera takes world to camera. So the camera's axes in the world are what
- * the inverse makes of x, y and z; the first ones are read off pbrt's LookAt: forward goes
- * from eye to look, right = up x forward, and up is made perpendicular.
+ * What stands before Camera takes world to camera. So the camera's axes in the world are
+ * what the inverse makes of x, y and z; the first ones are read off pbrt's LookAt: forward
+ * goes from eye to look, right = up x forward, and up is made perpendicular.
  */
 static const struct place {
 	const char *text;
@@ -451,9 +454,9 @@ test_lens_focus(void **state)
 }
 
 /*
- * The focus is no part of the field of view: with another fov the plane is as far off. And it
- * is a plane, not a sphere: z, not the distance, is focaldistance. tan 30 = 1 / sqrt 3: the
- * film's right edge is 10 / sqrt 3 to the right at z = 10.
+ * The focus is no part of the field of view: with another fov the plane is as far off.
+ * And it is a plane, not a sphere: z, not the distance, is focaldistance. tan 30 = 1 / sqrt
+ * 3: the film's right edge is 10 / sqrt 3 to the right at z = 10.
  */
 static void
 test_lens_and_fov(void **state)
@@ -656,10 +659,10 @@ test_around_axes(void **state)
 }
 
 /*
- * Of 8 x 4 pixels the first one's middle is at 22.5 degrees from the pole and 22.5 from +x:
- * s = sin 22.5 and c = cos 22.5 give (s c, c, s s). The one of column 5 and row 2 is at 112.5
- * degrees from the pole, of sine c and cosine -s, and at 247.5 from +x, of sine -c and
- * cosine -s.
+ * Of 8 x 4 pixels the first one's middle is at 22.5 degrees from the pole and 22.5 from
+ * +x: s = sin 22.5 and c = cos 22.5 give (s c, c, s s). The one of column 5 and row 2 is at
+ * 112.5 degrees from the pole, of sine c and cosine -s, and at 247.5 from +x, of sine -c
+ * and cosine -s.
  */
 static void
 test_around_pixels(void **state)
@@ -705,9 +708,9 @@ test_around_places(void **state)
 }
 
 /*
- * What the manual says of pictures of infinite lights, whose columns go from +x by +y around
- * +z and whose rows go down from +z: a camera that looks along +y with +z upwards makes one,
- * but mirrored in x. Its x is z x y = -x.
+ * What the manual says of pictures of infinite lights, whose columns go from +x by +y
+ * around +z and whose rows go down from +z: a camera that looks along +y with +z upwards
+ * makes one, but mirrored in x. Its x is z x y = -x.
  */
 static void
 test_around_makes_skies(void **state)
