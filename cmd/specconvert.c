@@ -12,6 +12,7 @@
 #include "cli/progress.h"
 #include "image/convert.h"
 #include "image/patches.h"
+#include "image/writer.h"
 #include "spectrum/lookup.h"
 #include "spectrum/product.h"
 #include "spectrum/spd.h"
@@ -33,7 +34,7 @@ static const struct cli_option options[] = {
 	{0, "patches", "COLUMNSxROWS", "make a chart of patches from curves"},
 	{0, "patch", "PIXELS", "side of a patch (default: 1)"},
 	{0, "gap", "PIXELS", "black between the patches (default: 0)"},
-	{'f', "format", "exr|spd",
+	{'f', "format", "exr|envi|spd",
 		"of the output (default: the suffix of -o, else the input's)"},
 	{0},
 };
@@ -141,11 +142,11 @@ take_extrapolate(struct job *job, const char *text, struct spec_error *error)
 static enum spec_status
 take_format(struct job *job, const char *text, struct spec_error *error)
 {
+	const struct spec_writing_format *format;
+
 	job->text = strcmp(text, "spd") == 0;
-	if (!job->text && strcmp(text, "exr") != 0)
-		return spec_error_set(
-			error, SPEC_EUSAGE, "unknown format '%s' (exr spd)", text);
-	return SPEC_OK;
+	job->settings.format = job->text ? NULL : text;
+	return job->text ? SPEC_OK : spec_writer_choose("-", text, &format, error);
 }
 
 static enum spec_status
@@ -270,6 +271,7 @@ static enum spec_status
 settle_format(struct job *job, int input_is_text, struct spec_error *error)
 {
 	const char *output = job->settings.output, *suffix = suffix_of(output);
+	const struct spec_writing_format *format;
 
 	if (job->text >= 0)
 		return SPEC_OK;
@@ -277,11 +279,7 @@ settle_format(struct job *job, int input_is_text, struct spec_error *error)
 	if (strcmp(output, "-") == 0 || !*suffix || strncmp(output, "/dev/", 5) == 0)
 		return SPEC_OK;
 	job->text = strcasecmp(suffix, ".spd") == 0 || strcasecmp(suffix, ".txt") == 0;
-	if (!job->text && strcasecmp(suffix, ".exr") != 0)
-		return spec_error_set(error, SPEC_EUSAGE,
-			"unable to write '%s': no format for '%s' (.exr .spd .txt, or --format)",
-			output, suffix);
-	return SPEC_OK;
+	return job->text ? SPEC_OK : spec_writer_choose(output, NULL, &format, error);
 }
 
 /* A curve after --grid, --multiply and --scale. */

@@ -9,7 +9,8 @@
 #define BLOCK_COPIES 4 /* packed, unpacked, scratch and converted */
 
 /* Tried in this order. */
-static const struct spec_reading_format *const formats[] = {&spec_reading_exr};
+static const struct spec_reading_format *const formats[] = {
+	&spec_reading_exr, &spec_reading_envi};
 
 /* ---- what formats use ---- */
 
@@ -120,7 +121,7 @@ enum spec_status
 spec_reader_open(struct spec_reader **result, const char *path,
 	const struct spec_settings *settings, struct spec_error *error)
 {
-	const struct spec_reading_format *format;
+	const struct spec_reading_format *format = NULL;
 	struct spec_reader *reader;
 	struct spec_source source;
 	enum spec_status status =

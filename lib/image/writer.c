@@ -1,5 +1,6 @@
 #include "image/writer.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
@@ -9,7 +10,8 @@
 #include "image/writing.h"
 
 /* The first is the one of standard output and of names without a suffix. */
-static const struct spec_writing_format *const formats[] = {&spec_writing_exr};
+static const struct spec_writing_format *const formats[] = {
+	&spec_writing_exr, &spec_writing_envi};
 
 #define FORMATS (sizeof formats / sizeof *formats)
 
@@ -60,20 +62,33 @@ suffix_of(const char *path)
 	return dot && dot > name ? dot : "";
 }
 
+/* What all formats together say: their names, or their suffixes. */
+static void
+list_known(char text[256], int suffixes)
+{
+	size_t length = 0;
+
+	for (size_t i = 0; i < FORMATS && length < 256; i++)
+		length += (size_t)snprintf(text + length, 256 - length, "%s%s",
+			i > 0 ? " " : "",
+			suffixes ? formats[i]->suffixes : formats[i]->name);
+}
+
 static enum spec_status
 find_format(const char *name, const struct spec_writing_format **format,
 	struct spec_error *error)
 {
-	char known[256] = "";
+	char known[256];
 
 	for (size_t i = 0; i < FORMATS; i++) {
 		if (strcmp(formats[i]->name, name) == 0) {
 			*format = formats[i];
 			return SPEC_OK;
 		}
-		strcat(strcat(known, i > 0 ? " " : ""), formats[i]->name);
 	}
-	return spec_error_set(error, SPEC_EUSAGE, "unknown format '%s' (%s)", name, known);
+	list_known(known, 0);
+	return spec_error_set(
+		error, SPEC_EUSAGE, "unknown format '%s' (%s)", name, known);
 }
 
 enum spec_status
@@ -81,11 +96,12 @@ spec_writer_choose(const char *path, const char *name,
 	const struct spec_writing_format **format, struct spec_error *error)
 {
 	const char *suffix = suffix_of(path);
+	char known[256];
 
 	*format = formats[0];
 	if (name)
 		return find_format(name, format, error);
-	if (strcmp(path, "-") == 0 || strncmp(path, "/dev/", 5) == 0)
+	if (strcmp(path, "-") == 0 || strncmp(path, "/dev/", 5) == 0 || !*suffix)
 		return SPEC_OK;
 	for (size_t i = 0; i < FORMATS; i++) {
 		if (is_listed(formats[i]->suffixes, suffix)) {
@@ -93,7 +109,9 @@ spec_writer_choose(const char *path, const char *name,
 			return SPEC_OK;
 		}
 	}
-	return SPEC_OK;
+	list_known(known, 1);
+	return spec_error_set(error, SPEC_EUSAGE,
+		"unable to write '%s': no image format for '%s' (%s)", path, suffix, known);
 }
 
 int

@@ -17,8 +17,8 @@ struct spec_writing_format;
 
 /*
  * The format to write to path ("-": standard output): that of name, or, where name is
- * null, what the suffix of path says, OpenEXR where it says nothing that is known. Error
- * (SPEC_EUSAGE): no format of that name.
+ * null, that of the suffix of path; OpenEXR where there is none. Errors (SPEC_EUSAGE): no
+ * format of that name or suffix.
  */
 enum spec_status spec_writer_choose(const char *path, const char *name,
 	const struct spec_writing_format **format, struct spec_error *error);
