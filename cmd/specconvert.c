@@ -1,4 +1,5 @@
 /* specconvert - change the grid, values or extent of spectra; see specconvert(1). */
+#include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -17,7 +18,7 @@
 #include "spectrum/product.h"
 #include "spectrum/spd.h"
 
-#define EXR_FIRST_BYTE 0x76
+#define UTF_8_MARK 0xef /* its first byte */
 #define MOST_CURVES 4096
 
 static const struct cli_option options[] = {
@@ -34,7 +35,7 @@ static const struct cli_option options[] = {
 	{0, "patches", "COLUMNSxROWS", "make a chart of patches from curves"},
 	{0, "patch", "PIXELS", "side of a patch (default: 1)"},
 	{0, "gap", "PIXELS", "black between the patches (default: 0)"},
-	{'f', "format", "exr|envi|spd",
+	{'f', "format", "exr|envi|hsr|spd",
 		"of the output (default: the suffix of -o, else the input's)"},
 	{0},
 };
@@ -244,15 +245,15 @@ is_text_name(const char *path)
 static int
 is_curve(const char *path)
 {
-	int byte;
+	unsigned char byte;
 
 	if (is_text_name(path))
 		return 1;
-	byte = spec_source_peek(path);
-	if (byte == EXR_FIRST_BYTE || has_suffix(path, ".exr"))
+	if (spec_reader_recognises(path) || has_suffix(path, ".exr"))
 		return 0;
 	if (strcmp(path, "-") == 0 || strncmp(path, "/dev/fd/", 8) == 0)
-		return byte >= 0;
+		return spec_source_peek(path, &byte, 1) == 1 &&
+		       (isprint(byte) || isspace(byte) || byte == UTF_8_MARK);
 	return access(path, F_OK) != 0 && path[0] != '/' && path[0] != '.';
 }
 

@@ -49,54 +49,51 @@ spec_source_open(struct spec_source *source, const char *path, size_t head_limit
 }
 
 /* tee(2) copies what a pipe holds and leaves it there. */
-static int
-peek_pipe(int fd)
+static size_t
+peek_pipe(int fd, void *bytes, size_t size)
 {
-	unsigned char byte;
-	int copy[2], result = -1;
+	int copy[2];
 	ssize_t got;
 
 	if (pipe2(copy, O_CLOEXEC) < 0)
-		return -1;
+		return 0;
 	do {
-		got = tee(fd, copy[1], 1, 0);
+		got = tee(fd, copy[1], size, 0);
 	} while (got < 0 && errno == EINTR);
-	if (got == 1) {
+	if (got > 0) {
+		size = (size_t)got;
 		do {
-			got = read(copy[0], &byte, 1);
+			got = read(copy[0], bytes, size);
 		} while (got < 0 && errno == EINTR);
-		if (got == 1)
-			result = byte;
 	}
 	close(copy[0]);
 	close(copy[1]);
-	return result;
+	return got > 0 ? (size_t)got : 0;
 }
 
-int
-spec_source_peek(const char *path)
+size_t
+spec_source_peek(const char *path, void *bytes, size_t size)
 {
 	int standard = strcmp(path, "-") == 0;
 	int shared = standard || strncmp(path, "/dev/", 5) == 0 ||
 		     strncmp(path, "/proc/self/fd/", 14) == 0;
 	struct stat status;
-	unsigned char byte;
-	int fd, result = -1;
+	ssize_t got = 0;
+	int fd;
 
 	/* A named FIFO that is opened and closed again loses its writer. */
 	if (!shared && (stat(path, &status) < 0 || !S_ISREG(status.st_mode)))
-		return -1;
+		return 0;
 	fd = standard ? STDIN_FILENO : open(path, O_RDONLY | O_CLOEXEC);
 	if (fd >= 0 && fstat(fd, &status) == 0) {
-		if (S_ISREG(status.st_mode) &&
-			pread(fd, &byte, 1, standard ? lseek(fd, 0, SEEK_CUR) : 0) == 1)
-			result = byte;
+		if (S_ISREG(status.st_mode))
+			got = pread(fd, bytes, size, standard ? lseek(fd, 0, SEEK_CUR) : 0);
 		else if (S_ISFIFO(status.st_mode))
-			result = peek_pipe(fd);
+			got = (ssize_t)peek_pipe(fd, bytes, size);
 	}
 	if (fd > STDIN_FILENO)
 		close(fd);
-	return result;
+	return got > 0 ? (size_t)got : 0;
 }
 
 void

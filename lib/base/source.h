@@ -28,11 +28,13 @@ enum spec_status spec_source_open(struct spec_source *source, const char *path,
 	size_t head_limit, struct spec_error *error);
 
 /*
- * The first byte of a file, or of a pipe that is standard input or another open
- * descriptor (/dev/fd/N); it is left there for the next reader. -1 where it cannot
- * be told: nothing there, or a named FIFO, which a second opening would upset.
+ * The first bytes, up to size, of a file, or of a pipe that is standard input or another
+ * open descriptor (/dev/fd/N); they are left there for the next reader. Returns how many
+ * there are: of a pipe those that have been written, but one at least, and it waits for
+ * that; 0 where it cannot be told: nothing there, or a named FIFO, which a second opening
+ * would upset.
  */
-int spec_source_peek(const char *path);
+size_t spec_source_peek(const char *path, void *bytes, size_t size);
 
 void spec_source_close(struct spec_source *source);
 

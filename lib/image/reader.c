@@ -10,7 +10,7 @@
 
 /* Tried in this order. */
 static const struct spec_reading_format *const formats[] = {
-	&spec_reading_exr, &spec_reading_envi};
+	&spec_reading_exr, &spec_reading_hsr, &spec_reading_envi};
 
 /* ---- what formats use ---- */
 
@@ -93,6 +93,25 @@ spec_reading_check_memory(const struct spec_reader *reader, struct spec_error *e
 
 /* ---- readers ---- */
 
+static const struct spec_reading_format *
+recognise(const unsigned char *bytes, size_t size, const char *path)
+{
+	for (size_t i = 0; i < sizeof formats / sizeof *formats; i++) {
+		if (formats[i]->recognises(bytes, size, path))
+			return formats[i];
+	}
+	return NULL;
+}
+
+int
+spec_reader_recognises(const char *path)
+{
+	unsigned char bytes[SPEC_READING_FIRST_BYTES];
+	size_t size = spec_source_peek(path, bytes, sizeof bytes);
+
+	return recognise(bytes, size, path) != NULL;
+}
+
 /* The format that an open source is in. */
 static enum spec_status
 find_format(struct spec_source *source, const char *path,
@@ -107,12 +126,9 @@ find_format(struct spec_source *source, const char *path,
 		return status;
 	if (got == 0)
 		return spec_error_set(error, SPEC_EFORMAT, "%s: is empty", source->name);
-	for (size_t i = 0; i < sizeof formats / sizeof *formats; i++) {
-		if (formats[i]->recognises(bytes, got, path)) {
-			*format = formats[i];
-			return SPEC_OK;
-		}
-	}
+	*format = recognise(bytes, got, path);
+	if (*format)
+		return SPEC_OK;
 	return spec_error_set(error, SPEC_EFORMAT,
 		"%s: is no image in a format that is read here", source->name);
 }

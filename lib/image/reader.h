@@ -18,6 +18,9 @@ struct spec_reader;
  */
 enum spec_status spec_reader_open(struct spec_reader **reader, const char *path,
 	const struct spec_settings *settings, struct spec_error *error);
+/* Whether what is at the path, or on standard input, begins as an image that is read here. */
+int spec_reader_recognises(const char *path);
+
 void spec_reader_close(struct spec_reader *reader);
 
 /* After the last line that was wanted: lets a pipe's writer finish. */

@@ -72,7 +72,8 @@ struct spec_reading_format {
 	enum spec_status (*drain)(struct spec_reader *reader, struct spec_error *error);
 };
 
-extern const struct spec_reading_format spec_reading_exr, spec_reading_envi;
+extern const struct spec_reading_format spec_reading_exr, spec_reading_envi,
+	spec_reading_hsr;
 
 /* Bytes of the beginning of a file that a format is recognised by. */
 #define SPEC_READING_FIRST_BYTES 64

@@ -11,7 +11,7 @@
 
 /* The first is the one of standard output and of names without a suffix. */
 static const struct spec_writing_format *const formats[] = {
-	&spec_writing_exr, &spec_writing_envi};
+	&spec_writing_exr, &spec_writing_envi, &spec_writing_hsr};
 
 #define FORMATS (sizeof formats / sizeof *formats)
 
@@ -87,8 +87,7 @@ find_format(const char *name, const struct spec_writing_format **format,
 		}
 	}
 	list_known(known, 0);
-	return spec_error_set(
-		error, SPEC_EUSAGE, "unknown format '%s' (%s)", name, known);
+	return spec_error_set(error, SPEC_EUSAGE, "unknown format '%s' (%s)", name, known);
 }
 
 enum spec_status

@@ -78,7 +78,8 @@ struct spec_writing_format {
 	void (*close)(struct spec_writer *writer);
 };
 
-extern const struct spec_writing_format spec_writing_exr, spec_writing_envi;
+extern const struct spec_writing_format spec_writing_exr, spec_writing_envi,
+	spec_writing_hsr;
 
 /* Lines of a chunk: the last may have fewer. */
 int spec_writing_lines(const struct spec_writer *writer, int index);
