@@ -127,7 +127,7 @@ $(LIBRARY): $(LIBOBJECTS) $(BUILD)/objects
 	$(QUIET)$(AR) qcs $@ $(LIBOBJECTS)
 
 # OpenImageIO costs 0.2 s at every start: it is loaded only when it is needed.
-$(PLUGIN): $(BUILD)/obj/lib/image/pictures.o
+$(PLUGIN): $(addprefix $(BUILD)/obj/lib/image/,pictures.o pictureinput.o)
 	@mkdir -p $(@D)
 	$(SAY) link $@
 	$(QUIET)$(CXX) $(ALLLDFLAGS) -shared -o $@ $^ $(OIIOLIBS)

@@ -13,9 +13,7 @@
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
-extern "C" {
-#include "image/pictures.h"
-}
+#include "image/pictures.hpp"
 
 namespace
 {
@@ -64,41 +62,9 @@ struct Picture {
 	OIIO::TypeDesc sample;
 	size_t stride = 0;
 	int row = 0;
+	bool outside = false; /* it goes to a file of the caller's */
 	std::unique_ptr<OIIO::ImageOutput> output;
 };
-
-enum spec_status
-fail(struct spec_error *error, enum spec_status status, const std::string &message)
-{
-	/* OpenImageIO gathers several, a line each; the first is the cause. */
-	const std::string line = message.substr(0, message.find('\n'));
-
-	error->status = status;
-	snprintf(error->message, sizeof error->message, "%s",
-		line.empty() ? "unknown error of OpenImageIO" : line.c_str());
-	return status;
-}
-
-/* Runs f; whatever it throws comes back as a status. */
-template <typename F>
-enum spec_status
-guard(struct spec_error *error, F f)
-{
-	try {
-		return f();
-	} catch (const std::bad_alloc &) {
-		/* No std::string here: it might throw again. */
-		error->status = SPEC_ENOMEM;
-		snprintf(error->message, sizeof error->message, "out of memory");
-	} catch (const std::exception &exception) {
-		error->status = SPEC_EIO;
-		snprintf(error->message, sizeof error->message, "%s", exception.what());
-	} catch (...) {
-		error->status = SPEC_EIO;
-		snprintf(error->message, sizeof error->message, "unknown exception");
-	}
-	return error->status;
-}
 
 /*
  * What OpenImageIO 2.4's formats turned out to do when they were tried. Its others are
@@ -169,14 +135,22 @@ open_output(Picture &picture, const struct spec_pictures_request &request,
 				" pixels are too many for ." + request.suffix + ": " +
 				size_text(format.most, format.most));
 	picture.sample = type_of(request.bits);
-	picture.stride = request.width * 3 * picture.sample.size();
-	OIIO::ImageSpec spec((int)request.width, (int)request.height, 3, picture.sample);
+	picture.stride = request.width * request.channels * picture.sample.size();
+	OIIO::ImageSpec spec((int)request.width, (int)request.height, (int)request.channels,
+		picture.sample);
 	if (request.colour)
 		spec.attribute("oiio:ColorSpace", request.colour);
+	if (request.description)
+		spec.attribute("ImageDescription", request.description);
 	/* Its Exif directory fails, and with it the whole file. Other formats ignore this. */
 	spec.attribute("tiff:write_exif", 0);
 	std::string name = std::string("picture.") + request.suffix;
-	if (format.to_memory && picture.output->supports("ioproxy")) {
+	if (request.path) {
+		/* No compression: deflate on one thread would be all the time it takes. */
+		spec.attribute("compression", "none");
+		name = request.path;
+		picture.outside = true;
+	} else if (format.to_memory && picture.output->supports("ioproxy")) {
 		picture.output->set_ioproxy(&picture.memory);
 	} else {
 		name = picture.file = picture.folder.make(request.suffix);
@@ -189,9 +163,10 @@ open_output(Picture &picture, const struct spec_pictures_request &request,
 		return fail(error, SPEC_EUNSUPPORTED, picture.output->geterror());
 	/* Formats quietly take the nearest that they can. */
 	if (picture.output->spec().format != picture.sample ||
-		picture.output->spec().nchannels != 3)
+		picture.output->spec().nchannels != (int)request.channels)
 		return fail(error, SPEC_EUNSUPPORTED,
-			std::string(".") + request.suffix + " cannot hold RGB of " +
+			std::string(".") + request.suffix + " cannot hold " +
+				std::to_string(request.channels) + " channels of " +
 				std::to_string(request.bits) + " bits per sample");
 	return SPEC_OK;
 }
@@ -276,12 +251,17 @@ finish_picture(
 		auto &picture = *static_cast<Picture *>(handle);
 		enum spec_status status = SPEC_OK;
 
+		*bytes = nullptr;
+		*size = 0;
+
 		if (!picture.output->close())
 			return fail(error, SPEC_EIO, picture.output->geterror());
 		/* Some notice a failure, and close as if there were none. */
 		if (picture.output->has_error())
 			return fail(error, SPEC_EIO, picture.output->geterror());
 		picture.output.reset();
+		if (picture.outside)
+			return SPEC_OK;
 		if (!picture.file.empty())
 			status = read_back(picture, error);
 		if (status == SPEC_OK && picture.bytes.empty())
@@ -294,5 +274,6 @@ finish_picture(
 
 extern const struct spec_pictures spec_pictures;
 const struct spec_pictures spec_pictures = {SPEC_PICTURES_VERSION, knows, open_picture,
-	write_picture, finish_picture, close_picture};
+	write_picture, finish_picture, close_picture, spec_pictures_open_input,
+	spec_pictures_read_input, spec_pictures_close_input};
 }

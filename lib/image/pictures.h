@@ -1,5 +1,5 @@
 /*
- * The plugin pictures.so: picture formats that OpenImageIO writes. Loaded by
+ * The plugin pictures.so: picture formats that OpenImageIO reads and writes. Loaded by
  * plugin.c alone, when such a format is asked for, since OpenImageIO costs 0.2 s
  * and 132 MB at every start. A C interface: no exception leaves it.
  */
@@ -11,7 +11,7 @@
 #include "base/error.h"
 
 /* To be raised with every change below, and of struct spec_error. */
-#define SPEC_PICTURES_VERSION 1
+#define SPEC_PICTURES_VERSION 2
 
 /* The only symbol: a constant struct spec_pictures. */
 #define SPEC_PICTURES_SYMBOL "spec_pictures"
@@ -19,8 +19,21 @@
 struct spec_pictures_request {
 	const char *suffix; /* without the dot */
 	size_t width, height;
-	int bits;           /* 8, 16: integers; 32: floats */
-	const char *colour; /* OpenImageIO's name of the colour space, or null */
+	size_t channels;
+	int bits;                /* 8, 16: integers; 32: floats */
+	const char *colour;      /* OpenImageIO's name of the colour space, or null */
+	const char *description; /* goes into the file, or null */
+	const char *path;        /* written as it grows, or null: into memory */
+};
+
+/* What a file that is read holds. */
+struct spec_pictures_content {
+	const char *format; /* OpenImageIO's name, such as "png"; the picture's own */
+	int width, height;
+	int channels;
+	int integers; /* its numbers are whole, and come divided by the largest */
+	int encoded;  /* by sRGB's transfer function, as far as the file says */
+	const char *description; /* "" if it has none; the picture's own */
 };
 
 /*
@@ -37,16 +50,30 @@ struct spec_pictures {
 	enum spec_status (*open)(void **picture,
 		const struct spec_pictures_request *request, struct spec_error *error);
 
-	/* The next count rows, interleaved RGB, from top to bottom. */
+	/* The next count rows, channels interleaved, from top to bottom. */
 	enum spec_status (*write)(
 		void *picture, const void *rows, size_t count, struct spec_error *error);
 
-	/* Ends the picture. The encoded file is the picture's, until close. */
+	/*
+	 * Ends the picture. The encoded file is the picture's, until close; none where it
+	 * was written to a path.
+	 */
 	enum spec_status (*finish)(void *picture, const unsigned char **bytes, size_t *size,
 		struct spec_error *error);
 
 	/* Frees all and removes temporary files; null is harmless. */
 	void (*close)(void *picture);
+
+	/* Begins to read a file; *input is null after an error. */
+	enum spec_status (*open_input)(void **input, const char *path,
+		struct spec_pictures_content *content, struct spec_error *error);
+
+	/* Rows first..end-1 as floats, channels interleaved. Not from two threads at once. */
+	enum spec_status (*read_input)(
+		void *input, int first, int end, float *rows, struct spec_error *error);
+
+	/* Null is harmless. */
+	void (*close_input)(void *input);
 };
 
 #endif

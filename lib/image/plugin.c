@@ -1,27 +1,11 @@
-/* Picture formats of the plugin pictures.so. */
+#include "image/plugin.h"
+
 #include <dlfcn.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-#include "base/memory.h"
-#include "image/encoder.h"
-#include "image/pictures.h"
-
 /* As the build tree and an installation have it: seen from the folder of the program. */
 #define PLUGIN "../lib/spectools/pictures.so"
-
-/* Largest float that RGBE holds: a fraction of 255/256 and an exponent of 127. */
-#define MOST_RGBE 0x1.FEp126f
-
-struct state {
-	void *library;
-	const struct spec_pictures *plugin;
-	void *picture;
-	float *row; /* of HDR, clamped */
-};
 
 static enum spec_status
 find_plugin(char *path, size_t room, struct spec_error *error)
@@ -41,8 +25,8 @@ find_plugin(char *path, size_t room, struct spec_error *error)
 		"the picture plugin was not found: /proc/self/exe cannot be used");
 }
 
-static enum spec_status
-load(struct state *state, struct spec_error *error)
+enum spec_status
+spec_plugin_load(struct spec_plugin *plugin, struct spec_error *error)
 {
 	char path[4096 + sizeof PLUGIN];
 	enum spec_status status = find_plugin(path, sizeof path, error);
@@ -50,152 +34,21 @@ load(struct state *state, struct spec_error *error)
 	if (status != SPEC_OK)
 		return status;
 	/* OpenImageIO starts threads: once loaded, it must stay. */
-	state->library = dlopen(path, RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
-	if (!state->library)
+	plugin->library = dlopen(path, RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
+	if (!plugin->library)
 		return spec_error_set(error, SPEC_EUNSUPPORTED,
 			"this format needs the picture plugin, which cannot be loaded: %s",
 			dlerror());
-	state->plugin = dlsym(state->library, SPEC_PICTURES_SYMBOL);
-	if (!state->plugin || state->plugin->version != SPEC_PICTURES_VERSION)
+	plugin->table = dlsym(plugin->library, SPEC_PICTURES_SYMBOL);
+	if (!plugin->table || plugin->table->version != SPEC_PICTURES_VERSION)
 		return spec_error_set(error, SPEC_EUNSUPPORTED,
 			"the picture plugin '%s' is of another version of spectools", path);
 	return SPEC_OK;
 }
 
-static void
-unload(struct state *state)
+void
+spec_plugin_unload(struct spec_plugin *plugin)
 {
-	if (state->library)
-		(void)dlclose(state->library);
+	if (plugin->library)
+		(void)dlclose(plugin->library);
 }
-
-/* The plugin's error with the file's name before it. */
-static enum spec_status
-report(struct spec_error *error, const struct spec_error *cause, const char *path)
-{
-	return spec_error_set(
-		error, cause->status, "unable to write '%s': %s", path, cause->message);
-}
-
-enum spec_status
-spec_plugin_knows(const char *suffix, const char *path, struct spec_error *error)
-{
-	struct state state = {0};
-	struct spec_error cause = {0};
-	enum spec_status status = load(&state, &cause);
-
-	if (status == SPEC_OK)
-		status = state.plugin->knows(suffix, &cause);
-	unload(&state);
-	return status == SPEC_OK ? SPEC_OK : report(error, &cause, path);
-}
-
-/* What the samples are, as OpenImageIO calls it; null: it has no word for it. */
-static const char *
-name_colour(const struct spec_picture *picture)
-{
-	const struct spec_space *space = picture->space;
-
-	if (picture->kind.sample == SPEC_PICTURE_FLOAT)
-		return "Linear";
-	if (!space)
-		return NULL;
-	if (!space->srgb_transfer)
-		return "Linear";
-	return strcmp(space->name, "srgb") == 0 ? "sRGB" : NULL;
-}
-
-static int
-is_rgbe(const struct spec_picture *picture)
-{
-	return strcmp(picture->kind.suffix, "hdr") == 0 ||
-	       strcmp(picture->kind.suffix, "rgbe") == 0;
-}
-
-static enum spec_status
-open_plugin(struct spec_picture *picture, struct spec_error *error)
-{
-	struct state *state = spec_memory_new(1, sizeof *state, "pictures", error);
-	struct spec_error cause = {0};
-	struct spec_pictures_request request = {.suffix = picture->kind.suffix,
-		.width = picture->width,
-		.height = picture->height,
-		.bits = 8 * (int)spec_picture_sample_bytes(picture->kind.sample),
-		.colour = name_colour(picture)};
-	enum spec_status status;
-
-	picture->state = state;
-	if (!state)
-		return SPEC_ENOMEM;
-	if (is_rgbe(picture)) {
-		state->row = spec_memory_new(
-			picture->width, 3 * sizeof *state->row, "samples", error);
-		if (!state->row)
-			return SPEC_ENOMEM;
-	}
-	status = load(state, &cause);
-	if (status == SPEC_OK)
-		status = state->plugin->open(&state->picture, &request, &cause);
-	return status == SPEC_OK ? SPEC_OK : report(error, &cause, picture->output->path);
-}
-
-/* OpenImageIO makes large numbers of negative ones here. NaN becomes 0, too. */
-static enum spec_status
-write_rgbe(struct spec_picture *picture, const float *sample, size_t count,
-	struct spec_error *cause)
-{
-	struct state *state = picture->state;
-	size_t samples = 3 * picture->width;
-	enum spec_status status = SPEC_OK;
-
-	for (size_t y = 0; y < count && status == SPEC_OK; y++, sample += samples) {
-		for (size_t i = 0; i < samples; i++)
-			state->row[i] = sample[i] > 0 ? fminf(sample[i], MOST_RGBE) : 0;
-		status = state->plugin->write(state->picture, state->row, 1, cause);
-	}
-	return status;
-}
-
-static enum spec_status
-write_plugin(struct spec_picture *picture, const void *rows, size_t count,
-	struct spec_error *error)
-{
-	struct state *state = picture->state;
-	struct spec_error cause = {0};
-	enum spec_status status =
-		is_rgbe(picture)
-			? write_rgbe(picture, rows, count, &cause)
-			: state->plugin->write(state->picture, rows, count, &cause);
-
-	return status == SPEC_OK ? SPEC_OK : report(error, &cause, picture->output->path);
-}
-
-static enum spec_status
-finish_plugin(struct spec_picture *picture, struct spec_error *error)
-{
-	struct state *state = picture->state;
-	struct spec_error cause = {0};
-	const unsigned char *bytes = NULL;
-	size_t size = 0;
-
-	if (state->plugin->finish(state->picture, &bytes, &size, &cause) != SPEC_OK)
-		return report(error, &cause, picture->output->path);
-	return spec_output_write(picture->output, bytes, size, error);
-}
-
-static void
-close_plugin(struct spec_picture *picture)
-{
-	struct state *state = picture->state;
-
-	if (!state)
-		return;
-	if (state->picture)
-		state->plugin->close(state->picture);
-	unload(state);
-	free(state->row);
-	free(state);
-}
-
-const struct spec_picture_encoder spec_picture_encoder_plugin = {
-	open_plugin, write_plugin, finish_plugin, close_plugin};
