@@ -35,7 +35,7 @@ static const struct cli_option options[] = {
 	{0, "patches", "COLUMNSxROWS", "make a chart of patches from curves"},
 	{0, "patch", "PIXELS", "side of a patch (default: 1)"},
 	{0, "gap", "PIXELS", "black between the patches (default: 0)"},
-	{'f', "format", "exr|envi|hsr|spd",
+	{'f', "format", "exr|envi|hsr|tiff|bands|spd",
 		"of the output (default: the suffix of -o, else the input's)"},
 	{0},
 };
@@ -419,14 +419,14 @@ convert_image(struct job *job, int argc, char **argv, struct spec_error *error)
 	struct spec_reader *reader = NULL;
 	enum spec_status status;
 
-	if (job->inputs > 1)
-		return spec_error_set(error, SPEC_EUSAGE,
-			"one image at a time: '%s' and '%s'", job->input[0], job->input[1]);
 	if (job->patches.columns > 0)
 		return spec_error_set(error, SPEC_EUSAGE,
 			"--patches is for curves, '%s' is an image", job->input[0]);
 	status = settle_format(job, 0, error);
-	if (status == SPEC_OK)
+	if (status == SPEC_OK && job->inputs > 1)
+		status = spec_reader_open_list(
+			&reader, job->input, job->inputs, &job->settings, error);
+	else if (status == SPEC_OK)
 		status = spec_reader_open(&reader, job->input[0], &job->settings, error);
 	if (status == SPEC_OK && job->text) {
 		status = image_to_text(job, reader, error);

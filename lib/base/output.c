@@ -11,6 +11,8 @@
 
 #include "base/memory.h"
 
+#define COPY_BYTES (1 << 20)
+
 #define MOST_NAMES 100       /* tried for a temporary file */
 #define MOST_LINKS 40        /* as the kernel has it */
 #define PIPE_BYTES (1 << 20) /* a larger pipe halves the number of switches */
@@ -357,4 +359,29 @@ spec_output_scratch(int *fd, struct spec_error *error)
 	return *fd >= 0 ? SPEC_OK
 			: spec_error_system(error, errno,
 				  "unable to create a temporary file in '%s'", folder);
+}
+
+enum spec_status
+spec_output_append(struct spec_output *output, int fd, struct spec_error *error)
+{
+	char *buffer = spec_memory_new(COPY_BYTES, 1, "bytes", error);
+	enum spec_status status = buffer ? SPEC_OK : SPEC_ENOMEM;
+	int64_t offset = 0;
+	ssize_t got = 1;
+
+	while (status == SPEC_OK && got > 0) {
+		got = pread(fd, buffer, COPY_BYTES, offset);
+		if (got < 0 && errno == EINTR) {
+			got = 1;
+			continue;
+		}
+		if (got < 0)
+			status = spec_error_system(
+				error, errno, "unable to read back a temporary file");
+		else
+			status = spec_output_write(output, buffer, (size_t)got, error);
+		offset += got;
+	}
+	free(buffer);
+	return status;
 }

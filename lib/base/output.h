@@ -48,6 +48,10 @@ void spec_output_abandon(struct spec_output *output);
 enum spec_status spec_output_save(
 	const char *path, const void *data, size_t size, struct spec_error *error);
 
+/* Writes what the file of that descriptor holds, from its beginning to its end. */
+enum spec_status spec_output_append(
+	struct spec_output *output, int fd, struct spec_error *error);
+
 /* A nameless temporary file in TMPDIR, else /tmp: its descriptor in *fd. */
 enum spec_status spec_output_scratch(int *fd, struct spec_error *error);
 

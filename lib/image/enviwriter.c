@@ -77,28 +77,6 @@ name_files(struct envi_writer *writer, struct spec_error *error)
 
 /* ---- what the header says ---- */
 
-static enum spec_status
-check_image(const struct spec_writer *writer, struct spec_error *error)
-{
-	const struct spec_image *image = writer->image;
-
-	if (image->bands == 0)
-		return spec_error_set(error, SPEC_EUSAGE,
-			"%s: the image has no bands to be written", writer->path);
-	if (image->stokes > 1 || image->bispectral > 0)
-		return spec_error_set(error, SPEC_EUNSUPPORTED,
-			"%s: ENVI holds one value for each band, neither Stokes components "
-			"nor reradiation",
-			writer->path);
-	for (size_t i = 0; i < image->channels; i++) {
-		if (image->channel[i].role == SPEC_ROLE_OTHER)
-			return spec_error_set(error, SPEC_EUNSUPPORTED,
-				"%s: ENVI has no place for channel '%s' (--bands-only)",
-				writer->path, image->channel[i].name);
-	}
-	return SPEC_OK;
-}
-
 static void
 write_list(FILE *file, const char *key, const double *number, size_t count)
 {
@@ -175,7 +153,7 @@ static enum spec_status
 open_writer(struct spec_writer *base, struct spec_error *error)
 {
 	struct envi_writer *writer = (struct envi_writer *)base;
-	enum spec_status status = check_image(base, error);
+	enum spec_status status = spec_writing_only_bands(base, "ENVI", error);
 
 	if (status == SPEC_OK)
 		status = name_files(writer, error);

@@ -11,7 +11,6 @@
 
 #define MOST_CHANNELS 32767 /* exr_add_channel takes more, and fails later */
 #define SHORT_NAME 31       /* bytes; longer ones set the file's long-name flag */
-#define COPY_BYTES (1 << 20)
 
 /*
  * An uncompressed chunk has a known size: y and size, four bytes each, then the
@@ -208,37 +207,14 @@ open_writer(struct spec_writer *base, struct spec_error *error)
 }
 
 static enum spec_status
-copy_scratch(struct exr_writer *writer, struct spec_error *error)
-{
-	char *buffer = spec_memory_new(COPY_BYTES, 1, "bytes", error);
-	enum spec_status status = buffer ? SPEC_OK : SPEC_ENOMEM;
-	int64_t offset = 0;
-	ssize_t got = 1;
-
-	while (status == SPEC_OK && got > 0) {
-		got = pread(writer->scratch.fd, buffer, COPY_BYTES, offset);
-		if (got < 0 && errno == EINTR) {
-			got = 1;
-			continue;
-		}
-		if (got < 0)
-			status = spec_error_system(
-				error, errno, "unable to read back a temporary file");
-		else
-			status = spec_output_write(writer->base.output, buffer, got, error);
-		offset += got;
-	}
-	free(buffer);
-	return status;
-}
-
-static enum spec_status
 finish(struct spec_writer *base, struct spec_error *error)
 {
 	struct exr_writer *writer = (struct exr_writer *)base;
 
 	/* The table went out with the last chunk; packers still need the context. */
-	return writer->scratched ? copy_scratch(writer, error) : SPEC_OK;
+	return writer->scratched
+		       ? spec_output_append(base->output, writer->scratch.fd, error)
+		       : SPEC_OK;
 }
 
 static void

@@ -57,16 +57,10 @@ check_image(const struct spec_writer *writer, double *step_nm, struct spec_error
 	char *quantity;
 	int density;
 
-	if (image->bands < LEAST_BANDS || image->role != SPEC_ROLE_EMISSIVE ||
-		image->stokes > 1)
+	if (image->bands < LEAST_BANDS || image->role != SPEC_ROLE_EMISSIVE)
 		return fail(writer, "radiance in four bands or more", error);
-	for (size_t i = 0; i < image->channels; i++) {
-		if (image->channel[i].role == SPEC_ROLE_OTHER)
-			return spec_error_set(error, SPEC_EUNSUPPORTED,
-				"%s: a picture of Radiance's has no place for channel '%s' "
-				"(--bands-only)",
-				writer->path, image->channel[i].name);
-	}
+	if (spec_writing_only_bands(writer, "a picture of Radiance's", error) != SPEC_OK)
+		return SPEC_EUNSUPPORTED;
 	*step_nm = find_step(image);
 	if (*step_nm == 0)
 		return fail(writer, "bands of one width, side by side (--grid)", error);

@@ -2,6 +2,7 @@
 
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "base/memory.h"
 #include "image/reading.h"
@@ -10,7 +11,7 @@
 
 /* Tried in this order. */
 static const struct spec_reading_format *const formats[] = {
-	&spec_reading_exr, &spec_reading_hsr, &spec_reading_envi};
+	&spec_reading_exr, &spec_reading_hsr, &spec_reading_picture, &spec_reading_envi};
 
 /* ---- what formats use ---- */
 
@@ -103,13 +104,21 @@ recognise(const unsigned char *bytes, size_t size, const char *path)
 	return NULL;
 }
 
+static int
+is_folder(const char *path)
+{
+	struct stat about;
+
+	return strcmp(path, "-") != 0 && stat(path, &about) == 0 && S_ISDIR(about.st_mode);
+}
+
 int
 spec_reader_recognises(const char *path)
 {
 	unsigned char bytes[SPEC_READING_FIRST_BYTES];
 	size_t size = spec_source_peek(path, bytes, sizeof bytes);
 
-	return recognise(bytes, size, path) != NULL;
+	return is_folder(path) || recognise(bytes, size, path) != NULL;
 }
 
 /* The format that an open source is in. */
@@ -133,36 +142,95 @@ find_format(struct spec_source *source, const char *path,
 		"%s: is no image in a format that is read here", source->name);
 }
 
-enum spec_status
-spec_reader_open(struct spec_reader **result, const char *path,
+/* A reader that is still to be opened; the source is its from now on, or closed. */
+static struct spec_reader *
+make_reader(const struct spec_reading_format *format, struct spec_source *source,
 	const struct spec_settings *settings, struct spec_error *error)
 {
-	const struct spec_reading_format *format = NULL;
-	struct spec_reader *reader;
-	struct spec_source source;
-	enum spec_status status =
-		spec_source_open(&source, path, (size_t)settings->limits.header, error);
+	struct spec_reader *reader =
+		spec_memory_new(1, format->reader_bytes, "readers", error);
 
-	*result = NULL;
-	if (status != SPEC_OK)
-		return status;
-	status = find_format(&source, path, &format, error);
-	reader = status == SPEC_OK
-			 ? spec_memory_new(1, format->reader_bytes, "readers", error)
-			 : NULL;
 	if (!reader) {
-		spec_source_close(&source);
-		return status == SPEC_OK ? SPEC_ENOMEM : status;
+		spec_source_close(source);
+		return NULL;
 	}
 	reader->format = format;
-	reader->source = source;
+	reader->source = *source;
 	reader->limits = settings->limits;
-	status = format->open(reader, path, settings, error);
+	return reader;
+}
+
+/* Opens what make_reader made. */
+static enum spec_status
+finish_opening(struct spec_reader **result, struct spec_reader *reader, const char *path,
+	const struct spec_settings *settings, struct spec_error *error)
+{
+	enum spec_status status = reader->format->open(reader, path, settings, error);
+
 	if (status == SPEC_OK)
 		*result = reader;
 	else
 		spec_reader_close(reader);
 	return status;
+}
+
+/* A source of that name that holds nothing: the files are the format's own matter. */
+static enum spec_status
+name_source(struct spec_source *source, const char *name, struct spec_error *error)
+{
+	*source = (struct spec_source){.fd = -1, .size = -1};
+	source->name = spec_memory_text(name, strlen(name), error);
+	return source->name ? SPEC_OK : SPEC_ENOMEM;
+}
+
+enum spec_status
+spec_reader_open(struct spec_reader **result, const char *path,
+	const struct spec_settings *settings, struct spec_error *error)
+{
+	const struct spec_reading_format *format = &spec_reading_picture;
+	struct spec_reader *reader;
+	struct spec_source source;
+	enum spec_status status;
+
+	*result = NULL;
+	if (is_folder(path)) {
+		status = name_source(&source, path, error);
+	} else {
+		status = spec_source_open(
+			&source, path, (size_t)settings->limits.header, error);
+		if (status != SPEC_OK)
+			return status;
+		status = find_format(&source, path, &format, error);
+		if (status != SPEC_OK)
+			spec_source_close(&source);
+	}
+	if (status != SPEC_OK)
+		return status;
+	reader = make_reader(format, &source, settings, error);
+	return reader ? finish_opening(result, reader, path, settings, error) : SPEC_ENOMEM;
+}
+
+enum spec_status
+spec_reader_open_list(struct spec_reader **result, const char *const *path, size_t count,
+	const struct spec_settings *settings, struct spec_error *error)
+{
+	struct spec_reader *reader;
+	struct spec_source source;
+	enum spec_status status = name_source(&source, path[0], error);
+
+	*result = NULL;
+	if (status != SPEC_OK)
+		return status;
+	reader = make_reader(&spec_reading_picture, &source, settings, error);
+	if (!reader)
+		return SPEC_ENOMEM;
+	for (size_t i = 0; i < count && status == SPEC_OK; i++)
+		status = spec_reading_add_picture(reader, path[i], error);
+	if (status != SPEC_OK) {
+		spec_reader_close(reader);
+		return status;
+	}
+	return finish_opening(result, reader, path[0], settings, error);
 }
 
 void

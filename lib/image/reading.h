@@ -73,7 +73,11 @@ struct spec_reading_format {
 };
 
 extern const struct spec_reading_format spec_reading_exr, spec_reading_envi,
-	spec_reading_hsr;
+	spec_reading_hsr, spec_reading_picture;
+
+/* Adds a file to a reader of pictures of one band each that is still to be opened. */
+enum spec_status spec_reading_add_picture(
+	struct spec_reader *reader, const char *path, struct spec_error *error);
 
 /* Bytes of the beginning of a file that a format is recognised by. */
 #define SPEC_READING_FIRST_BYTES 64

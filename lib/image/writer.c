@@ -10,8 +10,8 @@
 #include "image/writing.h"
 
 /* The first is the one of standard output and of names without a suffix. */
-static const struct spec_writing_format *const formats[] = {
-	&spec_writing_exr, &spec_writing_envi, &spec_writing_hsr};
+static const struct spec_writing_format *const formats[] = {&spec_writing_exr,
+	&spec_writing_envi, &spec_writing_hsr, &spec_writing_tiff, &spec_writing_folder};
 
 #define FORMATS (sizeof formats / sizeof *formats)
 
@@ -32,6 +32,29 @@ spec_writing_append(struct spec_packer *packer, int index, struct spec_error *er
 	(void)index;
 	return spec_output_write(
 		packer->writer->output, packer->chunk, packer->chunk_bytes, error);
+}
+
+enum spec_status
+spec_writing_only_bands(
+	const struct spec_writer *writer, const char *format, struct spec_error *error)
+{
+	const struct spec_image *image = writer->image;
+
+	if (image->bands == 0)
+		return spec_error_set(error, SPEC_EUSAGE,
+			"%s: the image has no bands to be written", writer->path);
+	if (image->stokes > 1 || image->bispectral > 0)
+		return spec_error_set(error, SPEC_EUNSUPPORTED,
+			"%s: %s holds one value for each band, neither Stokes components "
+			"nor reradiation",
+			writer->path, format);
+	for (size_t i = 0; i < image->channels; i++) {
+		if (image->channel[i].role == SPEC_ROLE_OTHER)
+			return spec_error_set(error, SPEC_EUNSUPPORTED,
+				"%s: %s has no place for channel '%s' (--bands-only)",
+				writer->path, format, image->channel[i].name);
+	}
+	return SPEC_OK;
 }
 
 /* ---- the choice of a format ---- */

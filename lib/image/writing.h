@@ -79,7 +79,7 @@ struct spec_writing_format {
 };
 
 extern const struct spec_writing_format spec_writing_exr, spec_writing_envi,
-	spec_writing_hsr;
+	spec_writing_hsr, spec_writing_tiff, spec_writing_folder;
 
 /* Lines of a chunk: the last may have fewer. */
 int spec_writing_lines(const struct spec_writer *writer, int index);
@@ -90,6 +90,13 @@ spec_writing_first_line(const struct spec_writer *writer, int index)
 {
 	return writer->image->data.y0 + index * writer->chunk_lines;
 }
+
+/*
+ * SPEC_EUNSUPPORTED: the image has anything but one value for each band, which is all that
+ * the format, called so in the message, can hold.
+ */
+enum spec_status spec_writing_only_bands(
+	const struct spec_writer *writer, const char *format, struct spec_error *error);
 
 /* A format's write where chunks simply follow each other in the output. */
 enum spec_status spec_writing_append(
