@@ -447,15 +447,9 @@ weigh(const double *value, double chance, float *weight, size_t count)
 		weight[i] = (float)(value[i] / chance);
 }
 
-const struct spec_coating *
-spec_material_film(const struct spec_material *material)
-{
-	return material->kind == SPEC_SCENE_THINFILM ? &material->coating : NULL;
-}
-
-void
-spec_material_film_factors(
-	const struct spec_surface *surface, double *mirrored, double *through)
+/* What a film mirrors and lets straight through, in each band; as spec_coating_row. */
+static void
+film_factors(const struct spec_surface *surface, double *mirrored, double *through)
 {
 	const struct spec_coating *coating = &surface->material->coating;
 	const struct spec_vector *object = &surface->hit->object;
@@ -477,7 +471,7 @@ sample_film(const struct spec_surface *surface, const float *throughput,
 
 	if (surface->cosine < 0 && !surface->material->coating.clear_behind)
 		return -1;
-	spec_material_film_factors(surface, mirrored, through);
+	film_factors(surface, mirrored, through);
 	chance = chance_of(mirrored, through, throughput, count);
 	if (spec_sampler_number(sampler) < chance) {
 		*direction = spec_vector_mirror(surface->eye, surface->hit->shading);

@@ -61,12 +61,4 @@ double spec_material_evaluate(
 double spec_material_sample(const struct spec_surface *surface, const float *throughput,
 	struct spec_sampler *sampler, struct spec_vector *direction, float *weight);
 
-/*
- * The film of a surface, or null: what it mirrors and lets straight through, in each band,
- * as spec_coating_row has it.
- */
-const struct spec_coating *spec_material_film(const struct spec_material *material);
-void spec_material_film_factors(
-	const struct spec_surface *surface, double *mirrored, double *through);
-
 #endif

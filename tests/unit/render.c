@@ -660,7 +660,7 @@ folded(const struct fixture *f, const struct picture *layers, const struct fold 
 
 	for (size_t i = fold->films; i-- > 0;) {
 		const struct spec_coating *coating =
-			spec_material_film(&f->render.material[fold->material[i]]);
+			&f->render.material[fold->material[i]].coating;
 		char prefix[32], name[64];
 		double cosine, size, thickness_nm, cover, r = 0, t = 0;
 		float height;
