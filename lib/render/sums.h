@@ -49,8 +49,8 @@ void spec_sums_add(double *geometry, struct spec_sums_ids *ids, const struct spe
 void spec_sums_finish(double *geometry, const struct spec_sums_ids *ids, unsigned samples);
 
 /*
- * Adds a surface's channels to an image under a prefix such as "film1.", the first of them
- * in slot; names the slots in *list by spec_sums_name.
+ * Adds a surface's channels to an image, one for each slot of its geometry, under a prefix
+ * such as "film1." or "". The id is UINT, the others are FLOAT.
  */
 enum spec_status spec_sums_add_channels(
 	struct spec_image *image, const char *prefix, struct spec_error *error);
