@@ -67,6 +67,18 @@ fails_pointing() {
     complain "the caret is not in column $column: $*" "${said[@]}" || return 1
 }
 
+# shuns_terminal COMMAND: as the shell has it; it refuses to write its image to a terminal, of which
+# nothing is shown.
+shuns_terminal() {
+  local code=0
+  command -v script >/dev/null || skip 'no script(1) to make a terminal'
+  script -qec "$1" typescript </dev/null >seen || code=$?
+  [ "$code" -eq 2 ] || complain "exit $code instead of 2: $1" || return 1
+  grep -q "^${1%% *}: refusing to write .* to a terminal; use -o FILE or a pipe" seen ||
+    complain "$1:" "$(cat seen)" || return 1
+  ! grep -q channels seen || complain "something of the image is shown: $1"
+}
+
 # no_leftovers FOLDER [FILE...]: there is nothing in it but these files, hidden ones included.
 no_leftovers() {
   local folder=$1 found wanted
@@ -87,6 +99,11 @@ spectral() {
   local file=$1
   shift
   "$TESTS/synthesize" "$@" -o "$file"
+}
+
+# layers ARGUMENT...: makes, or prints, an image of light layers with tests/helper/layers.
+layers() {
+  "$TESTS/layers" "$@"
 }
 
 # poke FILE OFFSET BYTES: puts bytes, written as printf has them, over those in a file.
@@ -148,6 +165,16 @@ has_channels() {
   shift
   wanted=$(printf '%s\n' "$@")
   [ "$found" = "$wanted" ] || complain "has:" "$found" "instead of:" "$wanted"
+}
+
+# has_line FILE LINE: exrheader prints that line.
+has_line() {
+  exrheader "$1" | grep -qxF -e "$2" || complain "no line '$2' in:" "$(exrheader "$1")"
+}
+
+# numbers FILE: an image's or a curve's numbers as text, without the header.
+numbers() {
+  specconvert --format spd "$1" | grep -v '^#'
 }
 
 # header_of FILE: all that exrheader prints but the file's name and the channels.

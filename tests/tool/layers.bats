@@ -4,10 +4,6 @@
 
 load common
 
-layers() {
-  "$TESTS/layers" "$@"
-}
-
 # holds FILE X,Y AWK: the statements hold for that pixel, v[CHANNEL] being its values.
 #   is(CHANNEL, NUMBER) and are(CHANNELS, X, Y, Z): has this value, these in .X, .Y, .Z
 #   lawful(PREFIX): N and I are unit vectors, Ns is N, cosine is N.I
@@ -47,11 +43,6 @@ holds() {
       '"$3"'
       exit failed
     }' pixel >said || complain "$1, pixel $2:" "$(cat said)"
-}
-
-# channels FILE: the names of its channels, one a line.
-channels() {
-  exrheader "$1" | sed -nE 's/^    (.*), (16|32)-bit.*/\1/p'
 }
 
 # grain X Y BAND C: G(C) of the text in layers.c.

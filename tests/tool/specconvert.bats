@@ -4,33 +4,9 @@
 
 load common
 
-# channels FILE: the names of its channels, one a line.
-channels() {
-  exrheader "$1" | sed -nE 's/^    (.*), (16|32)-bit.*/\1/p'
-}
-
-# has_channels FILE NAME...: these and no others, in this order.
-has_channels() {
-  local found wanted
-  found=$(channels "$1")
-  shift
-  wanted=$(printf '%s\n' "$@")
-  [ "$found" = "$wanted" ] || complain "has:" "$found" "instead of:" "$wanted"
-}
-
-# has_line FILE LINE: exrheader prints that line.
-has_line() {
-  exrheader "$1" | grep -qxF -e "$2" || complain "no line '$2' in:" "$(exrheader "$1")"
-}
-
 # attributes FILE: all that exrheader prints but the file's name, the channels and the windows.
 attributes() {
   exrheader "$1" | grep -vE '^file |^    .*, (16|32)-bit|^(data|display)Window '
-}
-
-# numbers FILE: an image's or a curve's numbers as text, without the header.
-numbers() {
-  specconvert --format spd "$1" | grep -v '^#'
 }
 
 # has_numbers FILE LINE...
