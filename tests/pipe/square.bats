@@ -11,10 +11,9 @@
 # shellcheck disable=SC2016 # $1 and the like are awk's
 
 load ../tool/common
+load ../tool/physics
 
-# specfilm.bats and specdisc.bats have the physics; see there for what can be called.
-functions=$(sed -n "/^functions='\$/,/^'\$/{ /^functions=/d; /^'/d; p }" \
-  "$ROOT/tests/tool/specfilm.bats" "$ROOT/tests/tool/specdisc.bats")
+functions=$film_functions$disc_functions
 
 soap='air | 1.33 300nm | air'
 grid=450:650:100

@@ -4,91 +4,12 @@
 # shellcheck disable=SC2154 # fails_cleanly leaves its line in stderr
 
 load common
+load physics
 
 soap='air | 1.33 500nm | air'
 glass='air | 1.38 120nm | 1.5'
 
-# For pixel_holds. Stacks are specfilm's, but with lengths in nm alone, no groups, and as media
-# numbers, n+ki, cauchy(A,B) and air.
-#   power(STACK, NM, COSINE, POLARISATION)  R and T are the shares of the power
-#   seen(STACK, NM, COSINE, POLARISATION)   R and T are what radiance is multiplied by; from the
-#                                           back where the cosine is negative
-#   folds(POLARISATION)                     every S0 of to is that of from with its films folded
-#                                           in; film k has the stack on[k], or is left out
-# By Fresnel's coefficients and Airy's sums, from the last layer on: the characteristic matrices
-# of specfilm are another way.
-functions='
-  function times(a, b, c, e) { re = a * c - b * e; im = a * e + b * c }
-  function over(a, b, c, e,  s) { s = c * c + e * e; re = (a * c + b * e) / s; im = (b * c - a * e) / s }
-  function root(a, b,  m) { # the one above the real axis
-    m = sqrt(a * a + b * b)
-    re = m + a > 0 ? sqrt((m + a) / 2) : 0
-    im = m - a > 0 ? sqrt((m - a) / 2) : 0
-  }
-  function take(stack, l,  part, word, j) {
-    last = split(stack, part, / *[|] */) - 1
-    for (j = 0; j <= last; j++) {
-      split(part[j + 1], word, " ")
-      thick[j] = word[2] + 0
-      n[j] = word[1] == "air" ? 1 : word[1] + 0
-      k[j] = word[1] ~ /[+]/ ? substr(word[1], index(word[1], "+")) + 0 : 0
-      if (split(word[1], word, /[(,)]/) > 2) n[j] = word[2] + word[3] / (l / 1000) ^ 2
-    }
-  }
-  function turn(  j, x) {
-    for (j = 0; j < last - j; j++) {
-      x = n[j]; n[j] = n[last - j]; n[last - j] = x
-      x = k[j]; k[j] = k[last - j]; k[last - j] = x
-      x = thick[j]; thick[j] = thick[last - j]; thick[last - j] = x
-    }
-  }
-  function airy(l, cosine, p,  j, qr, qi, yr, yi, rr, ri, tr, ti, er, ei, br, bi, dr, di) {
-    for (j = 0; j <= last; j++) { # admittances: n cos, for p divided by n^2
-      root(n[j] ^ 2 - k[j] ^ 2 - n[0] ^ 2 * (1 - cosine ^ 2), 2 * n[j] * k[j])
-      qr[j] = re; qi[j] = im
-      if (p) over(re, im, n[j] ^ 2 - k[j] ^ 2, 2 * n[j] * k[j])
-      yr[j] = re; yi[j] = im
-    }
-    rr = ri = ti = 0; tr = 1
-    for (j = last; j > 0; j--) {
-      er = exp(-2 * pi * thick[j] * qi[j] / l) * cos(2 * pi * thick[j] * qr[j] / l)
-      ei = exp(-2 * pi * thick[j] * qi[j] / l) * sin(2 * pi * thick[j] * qr[j] / l)
-      times(tr, ti, er, ei); tr = re; ti = im
-      times(er, ei, er, ei); times(rr, ri, re, im); rr = re; ri = im
-      over(yr[j - 1] - yr[j], yi[j - 1] - yi[j], yr[j - 1] + yr[j], yi[j - 1] + yi[j]); br = re; bi = im
-      times(br, bi, rr, ri); dr = 1 + re; di = im
-      times(tr, ti, 1 + br, bi); over(re, im, dr, di); tr = re; ti = im
-      over(br + rr, bi + ri, dr, di); rr = re; ri = im
-    }
-    R += rr ^ 2 + ri ^ 2
-    if (yr[0] > 0) T += (tr ^ 2 + ti ^ 2) * yr[last] / yr[0]
-  }
-  function shares(l, cosine, light) {
-    R = T = 0
-    if (light != "p") airy(l, cosine, 0)
-    if (light != "s") airy(l, cosine, 1)
-    if (light == "u") { R /= 2; T /= 2 }
-  }
-  function power(stack, l, cosine, light) { take(stack, l); shares(l, cosine, light) }
-  function seen(stack, l, cosine, light) {
-    take(stack, l)
-    if (cosine < 0) turn()
-    shares(l, cosine < 0 ? -cosine : cosine, light)
-    T = k[last] > 0 ? 0 : T * (n[0] / n[last]) ^ 2
-  }
-  function folds(light,  name, film, L) {
-    for (name in from) {
-      if (name !~ /^S0[.]/) continue
-      L = from["through." name]
-      for (film = 4; film > 0; film--) {
-        if (!(film in on) || from["film" film ".cover"] + 0 == 0) continue
-        seen(on[film], wavelength(name), from["film" film ".cosine"], light)
-        L = T * L + R * from["film" film ".mirror." name]
-      }
-      is(name, from[name] + L)
-    }
-  }
-'
+functions=$film_functions
 
 # film_image FILE [ARGUMENT...]: an image of the least that a film needs, at 500 nm; every sample is
 # 1/2, the cosine too, or what another --pattern says.
