@@ -12,7 +12,6 @@
 #include "image/discchart.h"
 #include "optics/ordertable.h"
 
-#define MOST_ID 4294967295LL
 #define FARTHEST_M 1e9
 #define WIDEST_NM 1e7 /* of a track or a pit: 1 cm, 50000 orders */
 
@@ -369,30 +368,6 @@ show_disc(struct job *job, int argc, char **argv, struct spec_error *error)
 }
 
 static enum spec_status
-take_surface(const struct job *job, size_t number, struct spec_diffract_surface *surface,
-	struct spec_error *error)
-{
-	const char *mask = job->choice[number].option[MASK];
-	long long id = 0;
-	enum spec_status status =
-		make_disc(job, &job->choice[number], &surface[number].disc, error);
-
-	surface[number].any = !mask;
-	if (status == SPEC_OK && mask)
-		status = spec_number_parse_whole(mask, 0, MOST_ID, "the id", &id, error);
-	surface[number].id = (uint32_t)id;
-	for (size_t i = 0; i < number && status == SPEC_OK; i++) {
-		if (surface[i].any == surface[number].any &&
-			surface[i].id == surface[number].id)
-			status = spec_error_set(error, SPEC_EUSAGE,
-				mask ? "two discs are for the id %s"
-				     : "two discs are for all surfaces (--mask ID)%s",
-				mask ? mask : "");
-	}
-	return status;
-}
-
-static enum spec_status
 light_image(struct job *job, struct spec_reader *reader, long long *bare, int argc,
 	char **argv, struct spec_error *error)
 {
@@ -414,22 +389,30 @@ static enum spec_status
 disc_image(
 	struct job *job, long long *bare, int argc, char **argv, struct spec_error *error)
 {
-	struct spec_diffract_surface *surface =
-		spec_memory_new(job->choices, sizeof *surface, "discs", error);
+	struct spec_disc *disc =
+		spec_memory_new(job->choices, sizeof *disc, "discs", error);
+	struct spec_mask *mask =
+		spec_memory_new(job->choices, sizeof *mask, "discs", error);
 	struct spec_reader *reader = NULL;
-	enum spec_status status = surface ? SPEC_OK : SPEC_ENOMEM;
+	enum spec_status status = disc && mask ? SPEC_OK : SPEC_ENOMEM;
 
-	for (size_t i = 0; i < job->choices && status == SPEC_OK; i++)
-		status = take_surface(job, i, surface, error);
-	job->setup.surface = surface;
-	job->setup.surfaces = job->choices;
+	for (size_t i = 0; i < job->choices && status == SPEC_OK; i++) {
+		status = make_disc(job, &job->choice[i], &disc[i], error);
+		if (status == SPEC_OK)
+			status = spec_mask_parse(
+				mask, i, job->choice[i].option[MASK], "discs", error);
+	}
+	job->setup.disc = disc;
+	job->setup.mask = mask;
+	job->setup.discs = job->choices;
 	job->setup.half = job->settings.half;
 	if (status == SPEC_OK)
 		status = spec_reader_open(
 			&reader, job->input ? job->input : "-", &job->settings, error);
 	if (status == SPEC_OK)
 		status = light_image(job, reader, bare, argc, argv, error);
-	free(surface);
+	free(disc);
+	free(mask);
 	spec_reader_close(reader);
 	return status;
 }

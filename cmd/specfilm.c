@@ -11,8 +11,6 @@
 #include "image/fold.h"
 #include "spectrum/spd.h"
 
-#define MOST_ID 4294967295LL
-
 static const struct cli_option options[] = {
 	{'s', "stack", "STACK",
 		"ambient | layer thickness | ... | substrate, such as\n"
@@ -310,34 +308,12 @@ show_film(struct job *job, int argc, char **argv, struct spec_error *error)
 }
 
 static enum spec_status
-take_surface(const struct job *job, size_t number, struct spec_fold_surface *surface,
+fold_image(struct job *job, struct spec_reader *reader, const struct spec_coating *coating,
+	const struct spec_mask *mask, long long *bare, int argc, char **argv,
 	struct spec_error *error)
 {
-	const char *mask = job->film[number].option[MASK];
-	long long id = 0;
-	enum spec_status status = SPEC_OK;
-
-	surface[number].any = !mask;
-	if (mask)
-		status = spec_number_parse_whole(mask, 0, MOST_ID, "the id", &id, error);
-	surface[number].id = (uint32_t)id;
-	for (size_t i = 0; i < number && status == SPEC_OK; i++) {
-		if (surface[i].any == surface[number].any &&
-			surface[i].id == surface[number].id)
-			status = spec_error_set(error, SPEC_EUSAGE,
-				mask ? "two stacks are for the id %s"
-				     : "two stacks are for all surfaces (--mask ID)%s",
-				mask ? mask : "");
-	}
-	return status;
-}
-
-static enum spec_status
-fold_image(struct job *job, struct spec_reader *reader, struct spec_fold_surface *surface,
-	long long *bare, int argc, char **argv, struct spec_error *error)
-{
-	struct spec_fold_setup setup = {
-		surface, job->films, job->polarisation, job->keep, job->settings.half};
+	struct spec_fold_setup setup = {coating, mask, job->films, job->polarisation,
+		job->keep, job->settings.half};
 	struct spec_fold fold;
 	enum spec_status status = spec_fold_plan(
 		&fold, spec_reader_image(reader), &setup, spec_reader_name(reader), error);
@@ -356,15 +332,15 @@ static enum spec_status
 film_image(
 	struct job *job, long long *bare, int argc, char **argv, struct spec_error *error)
 {
-	struct spec_fold_surface *surface =
-		spec_memory_new(job->films, sizeof *surface, "stacks", error);
+	struct spec_mask *mask = spec_memory_new(job->films, sizeof *mask, "stacks", error);
 	struct spec_coating *coating =
 		spec_memory_new(job->films, sizeof *coating, "stacks", error);
 	struct spec_reader *reader = NULL;
-	enum spec_status status = surface && coating ? SPEC_OK : SPEC_ENOMEM;
+	enum spec_status status = mask && coating ? SPEC_OK : SPEC_ENOMEM;
 
 	for (size_t i = 0; i < job->films && status == SPEC_OK; i++)
-		status = take_surface(job, i, surface, error);
+		status = spec_mask_parse(
+			mask, i, job->film[i].option[MASK], "stacks", error);
 	/* What is wrong with the command shows before a pipe is waited for. */
 	for (size_t i = 0; i < job->films && status == SPEC_OK; i++) {
 		struct spec_recipe recipe;
@@ -379,16 +355,15 @@ film_image(
 	for (size_t i = 0; i < job->films && status == SPEC_OK; i++) {
 		const struct spec_image *image = spec_reader_image(reader);
 
-		surface[i].coating = &coating[i];
 		status = make_coating(job, &job->film[i], NULL, image->wavelength_nm,
 			image->bands, &coating[i], error);
 	}
 	if (status == SPEC_OK)
-		status = fold_image(job, reader, surface, bare, argc, argv, error);
+		status = fold_image(job, reader, coating, mask, bare, argc, argv, error);
 	for (size_t i = 0; coating && i < job->films; i++)
 		spec_coating_free(&coating[i]);
 	free(coating);
-	free(surface);
+	free(mask);
 	spec_reader_close(reader);
 	return status;
 }

@@ -57,8 +57,8 @@ plan_surface(struct spec_diffract *diffract, struct spec_error *error)
 		status = need(surface->tangent[0],
 			"channels Tan.X, Tan.Y, Tan.Z (--centre does without)", name,
 			error);
-	for (size_t i = 0; i < setup->surfaces; i++)
-		by_id |= !setup->surface[i].any;
+	for (size_t i = 0; i < setup->discs; i++)
+		by_id |= !setup->mask[i].any;
 	if (status == SPEC_OK && by_id)
 		status = need(surface->id, "channel id", name, error);
 	if (status == SPEC_OK && by_id &&
@@ -156,22 +156,14 @@ static const struct spec_disc *
 disc_at(const struct spec_diffract_setup *setup, const float *cover, const float *ids,
 	size_t x, int *bare)
 {
-	const struct spec_disc *any = NULL;
-	uint32_t id = 0;
+	size_t i;
 
 	*bare = 0;
 	if (cover && cover[x] == 0)
 		return NULL;
-	if (ids)
-		memcpy(&id, ids + x, sizeof id);
-	for (size_t i = 0; i < setup->surfaces; i++) {
-		if (setup->surface[i].any)
-			any = &setup->surface[i].disc;
-		else if (setup->surface[i].id == id)
-			return &setup->surface[i].disc;
-	}
-	*bare = !any;
-	return any;
+	i = spec_mask_find(setup->mask, setup->discs, ids, x);
+	*bare = i == SPEC_MASK_NONE;
+	return i == SPEC_MASK_NONE ? NULL : &setup->disc[i];
 }
 
 /* Pixels from..to-1 of one disc: all lamps' light, added to light. */

@@ -7,10 +7,10 @@
 #define SPEC_IMAGE_DIFFRACT_H
 
 #include <stdatomic.h>
-#include <stdint.h>
 
 #include "base/error.h"
 #include "image/layers.h"
+#include "image/mask.h"
 #include "image/reader.h"
 #include "image/relight.h"
 #include "image/settings.h"
@@ -21,16 +21,10 @@ typedef void spec_disc_model(const struct spec_disc *disc,
 	const struct spec_disc_bands *bands, const struct spec_disc_pixels *pixels,
 	double *reflection, size_t stride);
 
-/* Which surfaces a disc is on. */
-struct spec_diffract_surface {
-	struct spec_disc disc;
-	int any;     /* every surface that none of the others takes */
-	uint32_t id; /* else those of this id */
-};
-
 struct spec_diffract_setup {
-	const struct spec_diffract_surface *surface;
-	size_t surfaces;
+	const struct spec_disc *disc;
+	const struct spec_mask *mask; /* which surfaces each disc is on */
+	size_t discs;
 	spec_disc_model *model;
 	int has_centre; /* the tangent is that of circles around it, in place of Tan */
 	double centre[3], axis[3]; /* in world space [m]; the axis is not 0 */
@@ -48,7 +42,7 @@ struct spec_diffract {
 /*
  * Works out the output's header and what is read. Arguments as spec_fold_plan's. Errors: no
  * lamp layers, layers that spec_layers_find refuses; no normal (Ns or N), no I, no Tan (or
- * no P, where there is a centre), a lamp without D, no id where a surface asks for it.
+ * no P, where there is a centre), a lamp without D, no id where a mask asks for it.
  */
 enum spec_status spec_diffract_plan(struct spec_diffract *diffract,
 	const struct spec_image *input, const struct spec_diffract_setup *setup,

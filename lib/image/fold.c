@@ -2,7 +2,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "base/memory.h"
 #include "base/vector.h"
@@ -63,11 +62,10 @@ plan_film(struct spec_fold *fold, size_t number, struct spec_error *error)
 	enum spec_status status =
 		need(has_cosine || has_vectors, number, "cosine", fold->name, error);
 
-	for (size_t i = 0; i < fold->setup.surfaces && status == SPEC_OK; i++) {
-		const struct spec_fold_surface *surface = &fold->setup.surface[i];
-		const struct spec_thickness *thickness = &surface->coating->thickness;
+	for (size_t i = 0; i < fold->setup.coatings && status == SPEC_OK; i++) {
+		const struct spec_thickness *thickness = &fold->setup.coating[i].thickness;
 
-		if (!surface->any)
+		if (!fold->setup.mask[i].any)
 			status = need(geometry->id != SPEC_LAYERS_NONE &&
 					      input->channel[geometry->id].sample ==
 						      SPEC_SAMPLE_UINT,
@@ -166,18 +164,9 @@ cosine_at(const struct film_rows *rows, size_t x)
 static const struct spec_coating *
 coating_at(const struct spec_fold_setup *setup, const struct film_rows *rows, size_t x)
 {
-	const struct spec_coating *any = NULL;
-	uint32_t id = 0;
+	size_t i = spec_mask_find(setup->mask, setup->coatings, rows->id, x);
 
-	if (rows->id)
-		memcpy(&id, rows->id + x, sizeof id);
-	for (size_t i = 0; i < setup->surfaces; i++) {
-		if (setup->surface[i].any)
-			any = setup->surface[i].coating;
-		else if (setup->surface[i].id == id)
-			return setup->surface[i].coating;
-	}
-	return any;
+	return i == SPEC_MASK_NONE ? NULL : &setup->coating[i];
 }
 
 /* The cosine of a pixel's angle of incidence; *behind: it is seen from the substrate. */

@@ -7,26 +7,20 @@
 #define SPEC_IMAGE_FOLD_H
 
 #include <stdatomic.h>
-#include <stdint.h>
 
 #include "base/error.h"
 #include "image/image.h"
 #include "image/layers.h"
+#include "image/mask.h"
 #include "image/reader.h"
 #include "image/relight.h"
 #include "image/settings.h"
 #include "optics/coating.h"
 
-/* Which surfaces a coating is on. */
-struct spec_fold_surface {
-	const struct spec_coating *coating; /* at the image's bands */
-	int any;     /* every surface that none of the others takes */
-	uint32_t id; /* else those of this id */
-};
-
 struct spec_fold_setup {
-	const struct spec_fold_surface *surface;
-	size_t surfaces;
+	const struct spec_coating *coating; /* at the image's bands */
+	const struct spec_mask *mask;       /* which surfaces each coating is on */
+	size_t coatings;
 	enum spec_polarisation polarisation;
 	int keep; /* the layers stay in the image */
 	int half; /* bands are stored as HALF */
@@ -43,7 +37,7 @@ struct spec_fold {
 /*
  * Works out the output's header and what is read. name: the file, for messages, which must
  * live as long as fold. Errors: no film layers, layers that spec_layers_find refuses, a
- * film without cosine (or Ns and I), without id where a surface asks for it, without Q
+ * film without cosine (or Ns and I), without id where a mask asks for it, without Q
  * where a thickness does.
  */
 enum spec_status spec_fold_plan(struct spec_fold *fold, const struct spec_image *input,
