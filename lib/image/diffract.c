@@ -326,19 +326,12 @@ spec_diffract_run(struct spec_diffract *diffract, struct spec_reader *reader,
 	const struct spec_settings *settings, unsigned long long *overflows,
 	struct spec_error *error)
 {
-	struct spec_stream stream = {
-		.reader = {reader},
-		.wanted = {diffract->relight.wanted},
-		.readers = 1,
-		.first_line = diffract->relight.input->data.y0,
-		.lines = (int)spec_window_height(&diffract->relight.image.data),
-		.lines_in = 1,
-		.scratch_bytes = sizeof(struct scratch) +
-				 2 * diffract->relight.input->bands * RUN * sizeof(double),
-		.state = diffract,
-		.kernel = kernel,
-	};
+	struct spec_stream stream = spec_relight_stream(&diffract->relight, reader);
 
+	stream.scratch_bytes = sizeof(struct scratch) +
+			       2 * diffract->relight.input->bands * RUN * sizeof(double);
+	stream.state = diffract;
+	stream.kernel = kernel;
 	return spec_image_save(
 		&diffract->relight.image, &stream, settings, overflows, error);
 }

@@ -377,18 +377,11 @@ spec_fold_run(struct spec_fold *fold, struct spec_reader *reader,
 	const struct spec_settings *settings, unsigned long long *overflows,
 	struct spec_error *error)
 {
-	struct spec_stream stream = {
-		.reader = {reader},
-		.wanted = {fold->relight.wanted},
-		.readers = 1,
-		.first_line = fold->relight.input->data.y0,
-		.lines = (int)spec_window_height(&fold->relight.image.data),
-		.lines_in = 1,
-		.scratch_bytes = sizeof(struct scratch) +
-				 fold->layers.films * sizeof(struct film_run),
-		.state = fold,
-		.kernel = kernel,
-	};
+	struct spec_stream stream = spec_relight_stream(&fold->relight, reader);
 
+	stream.scratch_bytes =
+		sizeof(struct scratch) + fold->layers.films * sizeof(struct film_run);
+	stream.state = fold;
+	stream.kernel = kernel;
 	return spec_image_save(&fold->relight.image, &stream, settings, overflows, error);
 }

@@ -119,3 +119,16 @@ spec_relight_copy(const struct spec_relight *relight, const struct spec_decoder 
 				bytes);
 	}
 }
+
+struct spec_stream
+spec_relight_stream(const struct spec_relight *relight, struct spec_reader *reader)
+{
+	return (struct spec_stream){
+		.reader = {reader},
+		.wanted = {relight->wanted},
+		.readers = 1,
+		.first_line = relight->input->data.y0,
+		.lines = (int)spec_window_height(&relight->image.data),
+		.lines_in = 1,
+	};
+}

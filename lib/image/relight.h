@@ -9,6 +9,7 @@
 #include "image/image.h"
 #include "image/layers.h"
 #include "image/reader.h"
+#include "image/stream.h"
 
 struct spec_relight {
 	const struct spec_image *input;
@@ -41,5 +42,13 @@ spec_relight_row(const struct spec_decoder *decoder, int y, size_t channel)
 /* Copies what gets no light: line y of the input into the planes of a line of the output. */
 void spec_relight_copy(const struct spec_relight *relight,
 	const struct spec_decoder *decoder, int y, float *const *plane);
+
+/*
+ * The stream from the reader of the input to the output, for spec_image_save: line by line,
+ * of the channels that are wanted. The caller adds kernel, state and scratch_bytes; relight
+ * must live as long as it.
+ */
+struct spec_stream spec_relight_stream(
+	const struct spec_relight *relight, struct spec_reader *reader);
 
 #endif
