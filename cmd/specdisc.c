@@ -329,10 +329,8 @@ draw_chart(struct job *job, const struct spec_disc *disc, const struct spec_grid
 		.height = job->height,
 		.grid = grid,
 		.quantity = "reflectance factor",
-		.half = job->settings.half,
 		.evaluate = spec_disc_chart_evaluate,
 		.state = &state};
-	struct spec_image image = {0};
 	enum spec_status status;
 
 	spec_disc_chart_variables(&chart, job->eye_deg, job->angle_deg, job->azimuth_deg);
@@ -340,13 +338,8 @@ draw_chart(struct job *job, const struct spec_disc *disc, const struct spec_grid
 	if (status == SPEC_OK)
 		status = check_axes(job, &chart, error);
 	if (status == SPEC_OK)
-		status = spec_chart_image(&chart, &image, error);
-	if (status == SPEC_OK && job->settings.history)
-		status = spec_image_add_history(&image, argc, argv, error);
-	if (status == SPEC_OK)
-		status = spec_chart_run(
-			&chart, &image, &job->settings, &job->overflows, error);
-	spec_image_clear(&image);
+		status = spec_chart_save(
+			&chart, argc, argv, &job->settings, &job->overflows, error);
 	return status;
 }
 

@@ -233,23 +233,13 @@ draw_chart(struct job *job, const struct spec_chart *axes,
 {
 	struct spec_film_chart film = {coating, job->polarisation, job->share};
 	struct spec_chart chart = *axes;
-	struct spec_image image;
-	enum spec_status status;
 
 	chart.width = job->width;
 	chart.height = job->height;
 	chart.quantity = spec_film_share_name(job->share);
-	chart.half = job->settings.half;
 	chart.evaluate = spec_film_chart_evaluate;
 	chart.state = &film;
-	status = spec_chart_image(&chart, &image, error);
-	if (status == SPEC_OK && job->settings.history)
-		status = spec_image_add_history(&image, argc, argv, error);
-	if (status == SPEC_OK)
-		status = spec_chart_run(
-			&chart, &image, &job->settings, &job->overflows, error);
-	spec_image_clear(&image);
-	return status;
+	return spec_chart_save(&chart, argc, argv, &job->settings, &job->overflows, error);
 }
 
 static int

@@ -122,9 +122,10 @@ spec_chart_parse(struct spec_chart *chart, const char *text, struct spec_error *
 	return SPEC_OK;
 }
 
-enum spec_status
-spec_chart_image(
-	const struct spec_chart *chart, struct spec_image *image, struct spec_error *error)
+/* The header of the chart's image, indexed. */
+static enum spec_status
+make_image(const struct spec_chart *chart, const struct spec_settings *settings,
+	struct spec_image *image, struct spec_error *error)
 {
 	enum spec_status status;
 
@@ -138,11 +139,9 @@ spec_chart_image(
 	if (status == SPEC_OK)
 		status = spec_image_add_bands(image, SPEC_ROLE_REFLECTIVE, 1,
 			chart->grid->wavelength_nm, chart->grid->count,
-			chart->half ? SPEC_SAMPLE_HALF : SPEC_SAMPLE_FLOAT, error);
+			settings->half ? SPEC_SAMPLE_HALF : SPEC_SAMPLE_FLOAT, error);
 	if (status == SPEC_OK)
 		status = spec_image_index(image, "chart", error);
-	if (status != SPEC_OK)
-		spec_image_clear(image);
 	return status;
 }
 
@@ -202,16 +201,21 @@ kernel(void *state, struct spec_stream_worker *worker, int line, struct spec_err
 }
 
 enum spec_status
-spec_chart_run(const struct spec_chart *chart, const struct spec_image *image,
+spec_chart_save(const struct spec_chart *chart, int argc, char **argv,
 	const struct spec_settings *settings, unsigned long long *overflows,
 	struct spec_error *error)
 {
-	struct run run = {chart, image};
-	struct spec_stream stream = {.lines = chart->height,
-		.lines_in = 1,
-		.scratch_bytes = image->bands * SPEC_CHART_RUN * sizeof(double),
-		.state = &run,
-		.kernel = kernel};
+	struct spec_image image;
+	struct run run = {chart, &image};
+	struct spec_stream stream = {
+		.lines = chart->height, .lines_in = 1, .state = &run, .kernel = kernel};
+	enum spec_status status = make_image(chart, settings, &image, error);
 
-	return spec_image_save(image, &stream, settings, overflows, error);
+	if (status == SPEC_OK && settings->history)
+		status = spec_image_add_history(&image, argc, argv, error);
+	stream.scratch_bytes = image.bands * SPEC_CHART_RUN * sizeof(double);
+	if (status == SPEC_OK)
+		status = spec_image_save(&image, &stream, settings, overflows, error);
+	spec_image_clear(&image);
+	return status;
 }

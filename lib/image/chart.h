@@ -37,7 +37,6 @@ struct spec_chart {
 	int width, height;
 	const struct spec_grid *grid;
 	const char *quantity; /* of the bands, T */
-	int half;
 	/*
 	 * Fills value[band * SPEC_CHART_RUN + i] for pixels i = 0..count-1, whose variables
 	 * are at[variable][i].
@@ -54,13 +53,12 @@ struct spec_chart {
 enum spec_status spec_chart_parse(
 	struct spec_chart *chart, const char *text, struct spec_error *error);
 
-/* The header of the chart's image, indexed. */
-enum spec_status spec_chart_image(
-	const struct spec_chart *chart, struct spec_image *image, struct spec_error *error);
-
-/* Makes and writes it; as spec_image_save. */
-enum spec_status spec_chart_run(const struct spec_chart *chart,
-	const struct spec_image *image, const struct spec_settings *settings,
-	unsigned long long *overflows, struct spec_error *error);
+/*
+ * Makes the chart's image and writes it; argc and argv: the command, for its history.
+ * Output and *overflows as spec_image_save's.
+ */
+enum spec_status spec_chart_save(const struct spec_chart *chart, int argc, char **argv,
+	const struct spec_settings *settings, unsigned long long *overflows,
+	struct spec_error *error);
 
 #endif
