@@ -6,6 +6,7 @@
 #include "base/memory.h"
 #include "base/number.h"
 #include "base/output.h"
+#include "cli/groups.h"
 #include "cli/options.h"
 #include "cli/progress.h"
 #include "image/diffract.h"
@@ -54,16 +55,12 @@ static const struct cli_program program = {
 	.writes_images = 1,
 };
 
-/* A disc as the options give it, or null. */
-enum { PRESET, TRACK, PIT, MASK, DISC_OPTIONS };
-struct choice {
-	const char *option[DISC_OPTIONS];
-};
+/* Options of a disc. */
+enum { PRESET, TRACK, PIT, MASK };
 
 struct job {
 	const char *input;
-	struct choice *choice;
-	size_t choices, choice_room;
+	struct cli_groups discs;
 	struct spec_diffract_setup setup;
 	const char *axes, *grid;
 	double angle_deg, eye_deg, azimuth_deg, spread_deg;
@@ -72,25 +69,6 @@ struct job {
 	unsigned long long overflows;
 	struct spec_settings settings;
 };
-
-/* An option of a disc: one that the last disc has already begins another disc. */
-static enum spec_status
-take_choice(struct job *job, int option, const char *value, struct spec_error *error)
-{
-	void *list = job->choice;
-	enum spec_status status;
-
-	if (job->choices > 0 && !job->choice[job->choices - 1].option[option]) {
-		job->choice[job->choices - 1].option[option] = value;
-		return SPEC_OK;
-	}
-	status = spec_memory_grow(&list, &job->choice_room, job->choices + 1,
-		sizeof *job->choice, "discs", error);
-	job->choice = list;
-	if (status == SPEC_OK)
-		job->choice[job->choices++].option[option] = value;
-	return status;
-}
 
 static enum spec_status
 take_vector(const char *text, const char *what, double vector[3], struct spec_error *error)
@@ -165,13 +143,13 @@ take_surface_option(struct job *job, const char *name, const char *value, int *k
 {
 	*known = 1;
 	if (strcmp(name, "preset") == 0)
-		return take_choice(job, PRESET, value, error);
+		return cli_groups_take(&job->discs, PRESET, value, error);
 	if (strcmp(name, "track") == 0)
-		return take_choice(job, TRACK, value, error);
+		return cli_groups_take(&job->discs, TRACK, value, error);
 	if (strcmp(name, "pit") == 0)
-		return take_choice(job, PIT, value, error);
+		return cli_groups_take(&job->discs, PIT, value, error);
 	if (strcmp(name, "mask") == 0)
-		return take_choice(job, MASK, value, error);
+		return cli_groups_take(&job->discs, MASK, value, error);
 	if (strcmp(name, "model") == 0)
 		return take_model(job, value, error);
 	if (strcmp(name, "centre") == 0) {
@@ -220,8 +198,8 @@ check_options(const struct cli *cli, const struct job *job)
 		cli_usage(cli, "--orders and --chart exclude each other");
 	if (alone && job->input)
 		cli_usage(cli, "--orders and --chart read no image: '%s'", job->input);
-	if (alone && (job->choices > 1 || job->choice[0].option[MASK] || setup->keep ||
-			     setup->has_centre))
+	if (alone && (job->discs.count > 1 || job->discs.group[0].option[MASK] ||
+			     setup->keep || setup->has_centre))
 		cli_usage(cli, "--orders and --chart take one disc, and neither --mask, "
 			       "--keep nor --centre");
 	if (!alone && (job->has_angle || job->has_azimuth || job->grid))
@@ -230,7 +208,7 @@ check_options(const struct cli *cli, const struct job *job)
 	if (!job->axes && (job->has_size || job->has_eye))
 		cli_usage(cli, "--size and --eye are for --chart");
 	if (job->orders &&
-		(job->has_model || job->has_spread || job->choice[0].option[PIT]))
+		(job->has_model || job->has_spread || job->discs.group[0].option[PIT]))
 		cli_usage(cli, "--orders knows of neither --model, --spread nor --pit");
 	if (job->has_axis && !setup->has_centre)
 		cli_usage(cli, "--axis needs a --centre");
@@ -245,8 +223,8 @@ parse(struct cli *cli, struct job *job, struct spec_error *error)
 {
 	spec_settings_init(&job->settings);
 	job->input = cli_take_all(cli, "image", take_option, job);
-	if (job->choices == 0) /* a disc as it comes */
-		cli_check(cli, take_choice(job, PRESET, "cd", error), error);
+	if (job->discs.count == 0) /* a disc as it comes */
+		cli_check(cli, cli_groups_take(&job->discs, PRESET, "cd", error), error);
 	check_options(cli, job);
 }
 
@@ -263,22 +241,21 @@ take_distance(
 }
 
 static enum spec_status
-make_disc(const struct job *job, const struct choice *choice, struct spec_disc *disc,
+make_disc(const struct job *job, const struct cli_group *group, struct spec_disc *disc,
 	struct spec_error *error)
 {
-	const struct spec_disc *preset = spec_disc_find(
-		choice->option[PRESET] ? choice->option[PRESET] : "cd", error);
+	const struct spec_disc *preset =
+		spec_disc_find(group->option[PRESET] ? group->option[PRESET] : "cd", error);
 	enum spec_status status = preset ? SPEC_OK : SPEC_EUSAGE;
 
 	if (status != SPEC_OK)
 		return status;
 	*disc = *preset;
-	if (choice->option[TRACK])
+	if (group->option[TRACK])
 		status = take_distance(
-			choice->option[TRACK], "the track", &disc->track_nm, error);
-	if (status == SPEC_OK && choice->option[PIT])
-		status =
-			take_distance(choice->option[PIT], "the pit", &disc->pit_nm, error);
+			group->option[TRACK], "the track", &disc->track_nm, error);
+	if (status == SPEC_OK && group->option[PIT])
+		status = take_distance(group->option[PIT], "the pit", &disc->pit_nm, error);
 	if (disc->pit_width_nm > disc->track_nm)
 		disc->pit_width_nm *= disc->track_nm / preset->track_nm;
 	disc->lobe_width = job->has_spread ? job->spread_deg * 3.14159265358979323846 / 180
@@ -349,7 +326,7 @@ show_disc(struct job *job, int argc, char **argv, struct spec_error *error)
 {
 	struct spec_grid grid = {0};
 	struct spec_disc disc;
-	enum spec_status status = make_disc(job, &job->choice[0], &disc, error);
+	enum spec_status status = make_disc(job, &job->discs.group[0], &disc, error);
 
 	if (status == SPEC_OK)
 		status = spec_grid_parse(job->grid ? job->grid : "380:780:5", &grid, error);
@@ -383,21 +360,21 @@ disc_image(
 	struct job *job, long long *bare, int argc, char **argv, struct spec_error *error)
 {
 	struct spec_disc *disc =
-		spec_memory_new(job->choices, sizeof *disc, "discs", error);
+		spec_memory_new(job->discs.count, sizeof *disc, "discs", error);
 	struct spec_mask *mask =
-		spec_memory_new(job->choices, sizeof *mask, "discs", error);
+		spec_memory_new(job->discs.count, sizeof *mask, "discs", error);
 	struct spec_reader *reader = NULL;
 	enum spec_status status = disc && mask ? SPEC_OK : SPEC_ENOMEM;
 
-	for (size_t i = 0; i < job->choices && status == SPEC_OK; i++) {
-		status = make_disc(job, &job->choice[i], &disc[i], error);
+	for (size_t i = 0; i < job->discs.count && status == SPEC_OK; i++) {
+		status = make_disc(job, &job->discs.group[i], &disc[i], error);
 		if (status == SPEC_OK)
 			status = spec_mask_parse(
-				mask, i, job->choice[i].option[MASK], "discs", error);
+				mask, i, job->discs.group[i].option[MASK], "discs", error);
 	}
 	job->setup.disc = disc;
 	job->setup.mask = mask;
-	job->setup.discs = job->choices;
+	job->setup.discs = job->discs.count;
 	job->setup.half = job->settings.half;
 	if (status == SPEC_OK)
 		status = spec_reader_open(
@@ -415,16 +392,15 @@ warn(const struct cli *cli, const struct job *job, long long bare)
 {
 	if (job->settings.quiet)
 		return;
-	if (bare > 0)
-		cli_warn(cli, "no disc is for the id of %lld %s: left out", bare,
-			bare == 1 ? "pixel" : "pixels");
+	cli_warn_bare(cli, "disc", bare);
 	cli_warn_overflows(cli, job->settings.output, job->overflows);
 }
 
 int
 main(int argc, char **argv)
 {
-	struct job job = {.width = 480,
+	struct job job = {.discs = {.nouns = "discs"},
+		.width = 480,
 		.height = 270,
 		.setup = {.model = spec_disc_composite, .axis = {0, 0, 1}}};
 	struct spec_error error = {0};
@@ -444,6 +420,6 @@ main(int argc, char **argv)
 	cli_progress_end(&progress);
 	cli_check(&cli, status, &error);
 	warn(&cli, &job, bare);
-	free(job.choice);
+	free(job.discs.group);
 	return 0;
 }

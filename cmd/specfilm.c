@@ -5,6 +5,7 @@
 
 #include "base/memory.h"
 #include "base/number.h"
+#include "cli/groups.h"
 #include "cli/options.h"
 #include "cli/progress.h"
 #include "image/filmchart.h"
@@ -47,16 +48,12 @@ static const struct cli_program program = {
 	.writes_images = 1,
 };
 
-/* A film as the options give it, or null. */
-enum { STACK, THICKNESS, MASK, FILM_OPTIONS };
-struct film {
-	const char *option[FILM_OPTIONS];
-};
+/* Options of a film. */
+enum { STACK, THICKNESS, MASK };
 
 struct job {
 	const char *input;
-	struct film *film;
-	size_t films, film_room;
+	struct cli_groups films;
 	enum spec_polarisation polarisation;
 	enum spec_film_share share;
 	enum spec_extrapolate extrapolate;
@@ -67,25 +64,6 @@ struct job {
 	unsigned long long overflows;
 	struct spec_settings settings;
 };
-
-/* An option of a film: one that the last film has already begins another film. */
-static enum spec_status
-take_film(struct job *job, int option, const char *value, struct spec_error *error)
-{
-	void *list = job->film;
-	enum spec_status status;
-
-	if (job->films > 0 && !job->film[job->films - 1].option[option]) {
-		job->film[job->films - 1].option[option] = value;
-		return SPEC_OK;
-	}
-	status = spec_memory_grow(
-		&list, &job->film_room, job->films + 1, sizeof *job->film, "stacks", error);
-	job->film = list;
-	if (status == SPEC_OK)
-		job->film[job->films++].option[option] = value;
-	return status;
-}
 
 static enum spec_status
 take_chart_option(struct job *job, const char *name, const char *value, int *known,
@@ -123,11 +101,11 @@ take_option(void *state, const char *name, const char *value, struct spec_error 
 	if (known)
 		return status;
 	if (strcmp(name, "stack") == 0)
-		return take_film(job, STACK, value, error);
+		return cli_groups_take(&job->films, STACK, value, error);
 	if (strcmp(name, "thickness") == 0)
-		return take_film(job, THICKNESS, value, error);
+		return cli_groups_take(&job->films, THICKNESS, value, error);
 	if (strcmp(name, "mask") == 0)
-		return take_film(job, MASK, value, error);
+		return cli_groups_take(&job->films, MASK, value, error);
 	if (strcmp(name, "polarisation") == 0)
 		return spec_polarisation_parse(value, &job->polarisation, error);
 	if (strcmp(name, "extrapolate") == 0)
@@ -147,17 +125,18 @@ check_options(const struct cli *cli, const struct job *job)
 {
 	int alone = job->spectrum || job->axes;
 
-	for (size_t i = 0; i < job->films; i++) {
-		if (!job->film[i].option[STACK])
+	for (size_t i = 0; i < job->films.count; i++) {
+		if (!job->films.group[i].option[STACK])
 			cli_usage(cli, "--thickness and --mask need a --stack");
 	}
-	if (job->films == 0)
+	if (job->films.count == 0)
 		cli_usage(cli, "there is no --stack");
 	if (job->spectrum && job->axes)
 		cli_usage(cli, "--spectrum and --chart exclude each other");
 	if (alone && job->input)
 		cli_usage(cli, "--spectrum and --chart read no image: '%s'", job->input);
-	if (alone && (job->films > 1 || job->film[0].option[MASK] || job->keep))
+	if (alone &&
+		(job->films.count > 1 || job->films.group[0].option[MASK] || job->keep))
 		cli_usage(cli, "--spectrum and --chart take one --stack, and neither "
 			       "--mask nor --keep");
 	if (!alone && (job->has_angle || job->grid))
@@ -176,7 +155,7 @@ parse(struct cli *cli, struct job *job)
 
 /* The coating of a film at wavelengths. thickness: in place of the film's own, or null. */
 static enum spec_status
-make_coating(const struct job *job, const struct film *film,
+make_coating(const struct job *job, const struct cli_group *film,
 	const struct spec_thickness *thickness, const double *wavelength_nm, size_t count,
 	struct spec_coating *coating, struct spec_error *error)
 {
@@ -210,13 +189,13 @@ print_spectrum(
 {
 	static const char *const light[] = {"unpolarised", "s", "p"};
 	struct spec_curve curve = {0};
-	const char *thickness = job->film[0].option[THICKNESS];
+	const char *thickness = job->films.group[0].option[THICKNESS];
 	char title[512];
 	enum spec_status status = spec_coating_curve(coating,
 		spec_film_cosine(job->angle_deg), job->polarisation, &curve, error);
 
 	snprintf(title, sizeof title, "%.380s%s%.40s, %g deg, %s light",
-		job->film[0].option[STACK], thickness ? ", * " : "",
+		job->films.group[0].option[STACK], thickness ? ", * " : "",
 		thickness ? thickness : "", job->angle_deg, light[job->polarisation]);
 	spec_error_plain(title);
 	if (status == SPEC_OK)
@@ -254,7 +233,7 @@ check_axes(const struct job *job, const struct spec_chart *chart, struct spec_er
 {
 	if (!job->axes)
 		return SPEC_OK;
-	if (has_axis(chart, SPEC_FILM_THICKNESS) && job->film[0].option[THICKNESS])
+	if (has_axis(chart, SPEC_FILM_THICKNESS) && job->films.group[0].option[THICKNESS])
 		return spec_error_set(error, SPEC_EUSAGE,
 			"the chart goes over the thickness, and --thickness gives one");
 	if (has_axis(chart, SPEC_FILM_ANGLE) && job->has_angle)
@@ -282,8 +261,9 @@ show_film(struct job *job, int argc, char **argv, struct spec_error *error)
 		status = check_axes(job, &chart, error);
 	over_thickness = job->axes && has_axis(&chart, SPEC_FILM_THICKNESS);
 	if (status == SPEC_OK)
-		status = make_coating(job, &job->film[0], over_thickness ? &any : NULL,
-			grid.wavelength_nm, grid.count, &coating, error);
+		status = make_coating(job, &job->films.group[0],
+			over_thickness ? &any : NULL, grid.wavelength_nm, grid.count,
+			&coating, error);
 	if (status == SPEC_OK)
 		status = refuse_gravity(&coating, error);
 	chart.grid = &grid;
@@ -302,7 +282,7 @@ fold_image(struct job *job, struct spec_reader *reader, const struct spec_coatin
 	const struct spec_mask *mask, long long *bare, int argc, char **argv,
 	struct spec_error *error)
 {
-	struct spec_fold_setup setup = {coating, mask, job->films, job->polarisation,
+	struct spec_fold_setup setup = {coating, mask, job->films.count, job->polarisation,
 		job->keep, job->settings.half};
 	struct spec_fold fold;
 	enum spec_status status = spec_fold_plan(
@@ -322,35 +302,37 @@ static enum spec_status
 film_image(
 	struct job *job, long long *bare, int argc, char **argv, struct spec_error *error)
 {
-	struct spec_mask *mask = spec_memory_new(job->films, sizeof *mask, "stacks", error);
+	struct spec_mask *mask =
+		spec_memory_new(job->films.count, sizeof *mask, "stacks", error);
 	struct spec_coating *coating =
-		spec_memory_new(job->films, sizeof *coating, "stacks", error);
+		spec_memory_new(job->films.count, sizeof *coating, "stacks", error);
 	struct spec_reader *reader = NULL;
 	enum spec_status status = mask && coating ? SPEC_OK : SPEC_ENOMEM;
 
-	for (size_t i = 0; i < job->films && status == SPEC_OK; i++)
+	for (size_t i = 0; i < job->films.count && status == SPEC_OK; i++)
 		status = spec_mask_parse(
-			mask, i, job->film[i].option[MASK], "stacks", error);
+			mask, i, job->films.group[i].option[MASK], "stacks", error);
 	/* What is wrong with the command shows before a pipe is waited for. */
-	for (size_t i = 0; i < job->films && status == SPEC_OK; i++) {
+	for (size_t i = 0; i < job->films.count && status == SPEC_OK; i++) {
 		struct spec_recipe recipe;
 
-		status = spec_recipe_parse(job->film[i].option[STACK], &recipe, error);
+		status = spec_recipe_parse(
+			job->films.group[i].option[STACK], &recipe, error);
 		if (status == SPEC_OK)
 			spec_recipe_free(&recipe);
 	}
 	if (status == SPEC_OK)
 		status = spec_reader_open(
 			&reader, job->input ? job->input : "-", &job->settings, error);
-	for (size_t i = 0; i < job->films && status == SPEC_OK; i++) {
+	for (size_t i = 0; i < job->films.count && status == SPEC_OK; i++) {
 		const struct spec_image *image = spec_reader_image(reader);
 
-		status = make_coating(job, &job->film[i], NULL, image->wavelength_nm,
+		status = make_coating(job, &job->films.group[i], NULL, image->wavelength_nm,
 			image->bands, &coating[i], error);
 	}
 	if (status == SPEC_OK)
 		status = fold_image(job, reader, coating, mask, bare, argc, argv, error);
-	for (size_t i = 0; coating && i < job->films; i++)
+	for (size_t i = 0; coating && i < job->films.count; i++)
 		spec_coating_free(&coating[i]);
 	free(coating);
 	free(mask);
@@ -363,16 +345,14 @@ warn(const struct cli *cli, const struct job *job, long long bare)
 {
 	if (job->settings.quiet)
 		return;
-	if (bare > 0)
-		cli_warn(cli, "no stack is for the id of %lld %s: left out", bare,
-			bare == 1 ? "pixel" : "pixels");
+	cli_warn_bare(cli, "stack", bare);
 	cli_warn_overflows(cli, job->settings.output, job->overflows);
 }
 
 int
 main(int argc, char **argv)
 {
-	struct job job = {.width = 480, .height = 270};
+	struct job job = {.films = {.nouns = "stacks"}, .width = 480, .height = 270};
 	struct spec_error error = {0};
 	struct cli_progress progress;
 	enum spec_status status;
@@ -390,6 +370,6 @@ main(int argc, char **argv)
 	cli_progress_end(&progress);
 	cli_check(&cli, status, &error);
 	warn(&cli, &job, bare);
-	free(job.film);
+	free(job.films.group);
 	return 0;
 }

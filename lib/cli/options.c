@@ -295,6 +295,14 @@ cli_check(const struct cli *cli, enum spec_status status, const struct spec_erro
 }
 
 void
+cli_warn_bare(const struct cli *cli, const char *noun, long long bare)
+{
+	if (bare > 0)
+		cli_warn(cli, "no %s is for the id of %lld %s: left out", noun, bare,
+			bare == 1 ? "pixel" : "pixels");
+}
+
+void
 cli_warn_overflows(const struct cli *cli, const char *output, unsigned long long overflows)
 {
 	if (overflows > 0)

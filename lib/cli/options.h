@@ -63,6 +63,9 @@ void cli_warn(const struct cli *cli, const char *format, ...)
 void cli_check(
 	const struct cli *cli, enum spec_status status, const struct spec_error *error);
 
+/* The warning of pixels that were left out, if any: no such thing is for their id. */
+void cli_warn_bare(const struct cli *cli, const char *noun, long long bare);
+
 /* The warning of what --half made infinite in output, if anything. */
 void cli_warn_overflows(
 	const struct cli *cli, const char *output, unsigned long long overflows);
