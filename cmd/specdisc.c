@@ -62,10 +62,9 @@ struct job {
 	const char *input;
 	struct cli_groups discs;
 	struct spec_diffract_setup setup;
-	const char *axes, *grid;
-	double angle_deg, eye_deg, azimuth_deg, spread_deg;
-	int orders, width, height;
-	int has_angle, has_eye, has_azimuth, has_size, has_axis, has_spread, has_model;
+	struct spec_chart_options chart;
+	double eye_deg, azimuth_deg, spread_deg;
+	int orders, has_eye, has_azimuth, has_axis, has_spread, has_model;
 	unsigned long long overflows;
 	struct spec_settings settings;
 };
@@ -109,32 +108,21 @@ take_chart_option(struct job *job, const char *name, const char *value, int *kno
 	struct spec_error *error)
 {
 	*known = 1;
-	if (strcmp(name, "chart") == 0) {
-		job->axes = value;
-	} else if (strcmp(name, "orders") == 0) {
-		job->orders = 1;
-	} else if (strcmp(name, "size") == 0) {
-		job->has_size = 1;
-		return spec_number_parse_size(value, SPEC_CHART_LARGEST, "the size",
-			&job->width, &job->height, error);
-	} else if (strcmp(name, "angle") == 0) {
-		job->has_angle = 1;
-		return spec_number_parse_angle(
-			value, 0, 90, "the angle", &job->angle_deg, error);
-	} else if (strcmp(name, "eye") == 0) {
+	if (strcmp(name, "eye") == 0) {
 		job->has_eye = 1;
 		return spec_number_parse_angle(
 			value, -90, 90, "the eye's angle", &job->eye_deg, error);
-	} else if (strcmp(name, "azimuth") == 0) {
+	}
+	if (strcmp(name, "azimuth") == 0) {
 		job->has_azimuth = 1;
 		return spec_number_parse_angle(
 			value, -180, 180, "the azimuth", &job->azimuth_deg, error);
-	} else if (strcmp(name, "grid") == 0) {
-		job->grid = value;
-	} else {
-		*known = 0;
 	}
-	return SPEC_OK;
+	if (strcmp(name, "orders") == 0) {
+		job->orders = 1;
+		return SPEC_OK;
+	}
+	return spec_chart_options_take(&job->chart, name, value, known, error);
 }
 
 static enum spec_status
@@ -192,9 +180,9 @@ check_options(const struct cli *cli, const struct job *job)
 {
 	const struct spec_diffract_setup *setup = &job->setup;
 	const double *axis = setup->axis;
-	int alone = job->orders || job->axes;
+	int alone = job->orders || job->chart.axes;
 
-	if (job->orders && job->axes)
+	if (job->orders && job->chart.axes)
 		cli_usage(cli, "--orders and --chart exclude each other");
 	if (alone && job->input)
 		cli_usage(cli, "--orders and --chart read no image: '%s'", job->input);
@@ -202,10 +190,10 @@ check_options(const struct cli *cli, const struct job *job)
 			     setup->keep || setup->has_centre))
 		cli_usage(cli, "--orders and --chart take one disc, and neither --mask, "
 			       "--keep nor --centre");
-	if (!alone && (job->has_angle || job->has_azimuth || job->grid))
+	if (!alone && (job->chart.has_angle || job->has_azimuth || job->chart.grid))
 		cli_usage(
 			cli, "--angle, --azimuth and --grid are for --orders and --chart");
-	if (!job->axes && (job->has_size || job->has_eye))
+	if (!job->chart.axes && (job->chart.has_size || job->has_eye))
 		cli_usage(cli, "--size and --eye are for --chart");
 	if (job->orders &&
 		(job->has_model || job->has_spread || job->discs.group[0].option[PIT]))
@@ -221,6 +209,7 @@ check_options(const struct cli *cli, const struct job *job)
 static void
 parse(struct cli *cli, struct job *job, struct spec_error *error)
 {
+	spec_chart_options_init(&job->chart);
 	spec_settings_init(&job->settings);
 	job->input = cli_take_all(cli, "image", take_option, job);
 	if (job->discs.count == 0) /* a disc as it comes */
@@ -268,8 +257,8 @@ print_orders(const struct job *job, const struct spec_disc *disc,
 	const struct spec_grid *grid, struct spec_error *error)
 {
 	struct spec_text text = {0};
-	enum spec_status status = spec_orders_text(disc, job->angle_deg, job->azimuth_deg,
-		grid->wavelength_nm, grid->count, &text, error);
+	enum spec_status status = spec_orders_text(disc, job->chart.angle_deg,
+		job->azimuth_deg, grid->wavelength_nm, grid->count, &text, error);
 
 	if (status == SPEC_OK)
 		status = spec_output_save(
@@ -282,7 +271,7 @@ print_orders(const struct job *job, const struct spec_disc *disc,
 static enum spec_status
 check_axes(const struct job *job, const struct spec_chart *chart, struct spec_error *error)
 {
-	const int given[] = {job->has_eye, job->has_angle, job->has_azimuth};
+	const int given[] = {job->has_eye, job->chart.has_angle, job->has_azimuth};
 	static const char *const option[] = {"--eye", "--angle", "--azimuth"};
 
 	for (size_t i = 0; i < 2; i++) {
@@ -302,16 +291,17 @@ draw_chart(struct job *job, const struct spec_disc *disc, const struct spec_grid
 {
 	struct spec_disc_chart state = {
 		disc, job->setup.model, {grid->count, grid->wavelength_nm, NULL}};
-	struct spec_chart chart = {.width = job->width,
-		.height = job->height,
+	struct spec_chart chart = {.width = job->chart.width,
+		.height = job->chart.height,
 		.grid = grid,
 		.quantity = "reflectance factor",
 		.evaluate = spec_disc_chart_evaluate,
 		.state = &state};
 	enum spec_status status;
 
-	spec_disc_chart_variables(&chart, job->eye_deg, job->angle_deg, job->azimuth_deg);
-	status = spec_chart_parse(&chart, job->axes, error);
+	spec_disc_chart_variables(
+		&chart, job->eye_deg, job->chart.angle_deg, job->azimuth_deg);
+	status = spec_chart_parse(&chart, job->chart.axes, error);
 	if (status == SPEC_OK)
 		status = check_axes(job, &chart, error);
 	if (status == SPEC_OK)
@@ -329,7 +319,7 @@ show_disc(struct job *job, int argc, char **argv, struct spec_error *error)
 	enum spec_status status = make_disc(job, &job->discs.group[0], &disc, error);
 
 	if (status == SPEC_OK)
-		status = spec_grid_parse(job->grid ? job->grid : "380:780:5", &grid, error);
+		status = spec_chart_options_grid(&job->chart, &grid, error);
 	if (status == SPEC_OK)
 		status = job->orders ? print_orders(job, &disc, &grid, error)
 				     : draw_chart(job, &disc, &grid, argc, argv, error);
@@ -400,8 +390,6 @@ int
 main(int argc, char **argv)
 {
 	struct job job = {.discs = {.nouns = "discs"},
-		.width = 480,
-		.height = 270,
 		.setup = {.model = spec_disc_composite, .axis = {0, 0, 1}}};
 	struct spec_error error = {0};
 	struct cli_progress progress;
@@ -415,8 +403,8 @@ main(int argc, char **argv)
 	job.settings.show = cli_progress_show;
 	job.settings.show_state = &progress;
 
-	status = job.orders || job.axes ? show_disc(&job, argc, argv, &error)
-					: disc_image(&job, &bare, argc, argv, &error);
+	status = job.orders || job.chart.axes ? show_disc(&job, argc, argv, &error)
+					      : disc_image(&job, &bare, argc, argv, &error);
 	cli_progress_end(&progress);
 	cli_check(&cli, status, &error);
 	warn(&cli, &job, bare);

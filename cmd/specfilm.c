@@ -57,46 +57,19 @@ struct job {
 	enum spec_polarisation polarisation;
 	enum spec_film_share share;
 	enum spec_extrapolate extrapolate;
-	const char *axes, *grid;
-	double angle_deg;
-	int keep, spectrum, width, height;
-	int has_angle, has_size, has_share;
+	struct spec_chart_options chart;
+	int keep, spectrum, has_share;
 	unsigned long long overflows;
 	struct spec_settings settings;
 };
-
-static enum spec_status
-take_chart_option(struct job *job, const char *name, const char *value, int *known,
-	struct spec_error *error)
-{
-	*known = 1;
-	if (strcmp(name, "chart") == 0) {
-		job->axes = value;
-	} else if (strcmp(name, "of") == 0) {
-		job->has_share = 1;
-		return spec_film_share_parse(value, &job->share, error);
-	} else if (strcmp(name, "size") == 0) {
-		job->has_size = 1;
-		return spec_number_parse_size(value, SPEC_CHART_LARGEST, "the size",
-			&job->width, &job->height, error);
-	} else if (strcmp(name, "angle") == 0) {
-		job->has_angle = 1;
-		return spec_number_parse_angle(
-			value, 0, 90, "the angle", &job->angle_deg, error);
-	} else if (strcmp(name, "grid") == 0) {
-		job->grid = value;
-	} else {
-		*known = 0;
-	}
-	return SPEC_OK;
-}
 
 static enum spec_status
 take_option(void *state, const char *name, const char *value, struct spec_error *error)
 {
 	struct job *job = state;
 	int known;
-	enum spec_status status = take_chart_option(job, name, value, &known, error);
+	enum spec_status status =
+		spec_chart_options_take(&job->chart, name, value, &known, error);
 
 	if (known)
 		return status;
@@ -106,6 +79,10 @@ take_option(void *state, const char *name, const char *value, struct spec_error 
 		return cli_groups_take(&job->films, THICKNESS, value, error);
 	if (strcmp(name, "mask") == 0)
 		return cli_groups_take(&job->films, MASK, value, error);
+	if (strcmp(name, "of") == 0) {
+		job->has_share = 1;
+		return spec_film_share_parse(value, &job->share, error);
+	}
 	if (strcmp(name, "polarisation") == 0)
 		return spec_polarisation_parse(value, &job->polarisation, error);
 	if (strcmp(name, "extrapolate") == 0)
@@ -123,7 +100,7 @@ take_option(void *state, const char *name, const char *value, struct spec_error 
 static void
 check_options(const struct cli *cli, const struct job *job)
 {
-	int alone = job->spectrum || job->axes;
+	int alone = job->spectrum || job->chart.axes;
 
 	for (size_t i = 0; i < job->films.count; i++) {
 		if (!job->films.group[i].option[STACK])
@@ -131,7 +108,7 @@ check_options(const struct cli *cli, const struct job *job)
 	}
 	if (job->films.count == 0)
 		cli_usage(cli, "there is no --stack");
-	if (job->spectrum && job->axes)
+	if (job->spectrum && job->chart.axes)
 		cli_usage(cli, "--spectrum and --chart exclude each other");
 	if (alone && job->input)
 		cli_usage(cli, "--spectrum and --chart read no image: '%s'", job->input);
@@ -139,15 +116,16 @@ check_options(const struct cli *cli, const struct job *job)
 		(job->films.count > 1 || job->films.group[0].option[MASK] || job->keep))
 		cli_usage(cli, "--spectrum and --chart take one --stack, and neither "
 			       "--mask nor --keep");
-	if (!alone && (job->has_angle || job->grid))
+	if (!alone && (job->chart.has_angle || job->chart.grid))
 		cli_usage(cli, "--angle and --grid are for --spectrum and --chart");
-	if (!job->axes && (job->has_size || job->has_share))
+	if (!job->chart.axes && (job->chart.has_size || job->has_share))
 		cli_usage(cli, "--size and --of are for --chart");
 }
 
 static void
 parse(struct cli *cli, struct job *job)
 {
+	spec_chart_options_init(&job->chart);
 	spec_settings_init(&job->settings);
 	job->input = cli_take_all(cli, "image", take_option, job);
 	check_options(cli, job);
@@ -192,11 +170,11 @@ print_spectrum(
 	const char *thickness = job->films.group[0].option[THICKNESS];
 	char title[512];
 	enum spec_status status = spec_coating_curve(coating,
-		spec_film_cosine(job->angle_deg), job->polarisation, &curve, error);
+		spec_film_cosine(job->chart.angle_deg), job->polarisation, &curve, error);
 
 	snprintf(title, sizeof title, "%.380s%s%.40s, %g deg, %s light",
 		job->films.group[0].option[STACK], thickness ? ", * " : "",
-		thickness ? thickness : "", job->angle_deg, light[job->polarisation]);
+		thickness ? thickness : "", job->chart.angle_deg, light[job->polarisation]);
 	spec_error_plain(title);
 	if (status == SPEC_OK)
 		status = spec_curve_set_text(&curve.title, title, error);
@@ -213,8 +191,8 @@ draw_chart(struct job *job, const struct spec_chart *axes,
 	struct spec_film_chart film = {coating, job->polarisation, job->share};
 	struct spec_chart chart = *axes;
 
-	chart.width = job->width;
-	chart.height = job->height;
+	chart.width = job->chart.width;
+	chart.height = job->chart.height;
 	chart.quantity = spec_film_share_name(job->share);
 	chart.evaluate = spec_film_chart_evaluate;
 	chart.state = &film;
@@ -231,12 +209,12 @@ has_axis(const struct spec_chart *chart, size_t variable)
 static enum spec_status
 check_axes(const struct job *job, const struct spec_chart *chart, struct spec_error *error)
 {
-	if (!job->axes)
+	if (!job->chart.axes)
 		return SPEC_OK;
 	if (has_axis(chart, SPEC_FILM_THICKNESS) && job->films.group[0].option[THICKNESS])
 		return spec_error_set(error, SPEC_EUSAGE,
 			"the chart goes over the thickness, and --thickness gives one");
-	if (has_axis(chart, SPEC_FILM_ANGLE) && job->has_angle)
+	if (has_axis(chart, SPEC_FILM_ANGLE) && job->chart.has_angle)
 		return spec_error_set(error, SPEC_EUSAGE,
 			"the chart goes over the angle, and --angle gives one");
 	return SPEC_OK;
@@ -251,15 +229,14 @@ show_film(struct job *job, int argc, char **argv, struct spec_error *error)
 	struct spec_coating coating = {0};
 	struct spec_grid grid = {0};
 	int over_thickness;
-	enum spec_status status =
-		spec_grid_parse(job->grid ? job->grid : "380:780:5", &grid, error);
+	enum spec_status status = spec_chart_options_grid(&job->chart, &grid, error);
 
-	spec_film_chart_variables(&chart, 0, job->angle_deg);
-	if (status == SPEC_OK && job->axes)
-		status = spec_chart_parse(&chart, job->axes, error);
+	spec_film_chart_variables(&chart, 0, job->chart.angle_deg);
+	if (status == SPEC_OK && job->chart.axes)
+		status = spec_chart_parse(&chart, job->chart.axes, error);
 	if (status == SPEC_OK)
 		status = check_axes(job, &chart, error);
-	over_thickness = job->axes && has_axis(&chart, SPEC_FILM_THICKNESS);
+	over_thickness = job->chart.axes && has_axis(&chart, SPEC_FILM_THICKNESS);
 	if (status == SPEC_OK)
 		status = make_coating(job, &job->films.group[0],
 			over_thickness ? &any : NULL, grid.wavelength_nm, grid.count,
@@ -352,7 +329,7 @@ warn(const struct cli *cli, const struct job *job, long long bare)
 int
 main(int argc, char **argv)
 {
-	struct job job = {.films = {.nouns = "stacks"}, .width = 480, .height = 270};
+	struct job job = {.films = {.nouns = "stacks"}};
 	struct spec_error error = {0};
 	struct cli_progress progress;
 	enum spec_status status;
@@ -365,8 +342,9 @@ main(int argc, char **argv)
 	job.settings.show = cli_progress_show;
 	job.settings.show_state = &progress;
 
-	status = job.spectrum || job.axes ? show_film(&job, argc, argv, &error)
-					  : film_image(&job, &bare, argc, argv, &error);
+	status = job.spectrum || job.chart.axes
+			 ? show_film(&job, argc, argv, &error)
+			 : film_image(&job, &bare, argc, argv, &error);
 	cli_progress_end(&progress);
 	cli_check(&cli, status, &error);
 	warn(&cli, &job, bare);

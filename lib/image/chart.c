@@ -6,6 +6,45 @@
 #include "base/number.h"
 #include "image/save.h"
 
+#define LARGEST 32768 /* pixels of a side */
+
+void
+spec_chart_options_init(struct spec_chart_options *options)
+{
+	*options = (struct spec_chart_options){.width = 480, .height = 270};
+}
+
+enum spec_status
+spec_chart_options_take(struct spec_chart_options *options, const char *name,
+	const char *value, int *known, struct spec_error *error)
+{
+	*known = 1;
+	if (strcmp(name, "size") == 0) {
+		options->has_size = 1;
+		return spec_number_parse_size(value, LARGEST, "the size", &options->width,
+			&options->height, error);
+	}
+	if (strcmp(name, "angle") == 0) {
+		options->has_angle = 1;
+		return spec_number_parse_angle(
+			value, 0, 90, "the angle", &options->angle_deg, error);
+	}
+	if (strcmp(name, "chart") == 0)
+		options->axes = value;
+	else if (strcmp(name, "grid") == 0)
+		options->grid = value;
+	else
+		*known = 0;
+	return SPEC_OK;
+}
+
+enum spec_status
+spec_chart_options_grid(const struct spec_chart_options *options, struct spec_grid *grid,
+	struct spec_error *error)
+{
+	return spec_grid_parse(options->grid ? options->grid : "380:780:5", grid, error);
+}
+
 static enum spec_status
 fail_at(const char *text, size_t at, struct spec_error *error)
 {

@@ -14,7 +14,6 @@
 
 #define SPEC_CHART_RUN 256 /* pixels asked for at a time */
 #define SPEC_CHART_VARIABLES 4
-#define SPEC_CHART_LARGEST 32768 /* pixels of a side */
 
 enum spec_chart_unit { SPEC_CHART_NM, SPEC_CHART_DEGREES };
 
@@ -45,6 +44,28 @@ struct spec_chart {
 		const void *state, const double *const *at, size_t count, double *value);
 	const void *state;
 };
+
+/* What every tool that makes charts lets its user set. */
+struct spec_chart_options {
+	const char *axes, *grid; /* --chart, --grid; null: not given */
+	double angle_deg;        /* --angle, 0 to 90; what of, the tool knows */
+	int width, height;       /* --size */
+	int has_angle, has_size; /* they were given */
+};
+
+/* The defaults: no chart, 480 x 270, 0 degrees. */
+void spec_chart_options_init(struct spec_chart_options *options);
+
+/*
+ * Takes an option by its long name. Returns SPEC_OK with *known 0 where it is none of
+ * these; errors as spec_number_parse_size's and spec_number_parse_angle's.
+ */
+enum spec_status spec_chart_options_take(struct spec_chart_options *options,
+	const char *name, const char *value, int *known, struct spec_error *error);
+
+/* The wavelengths of --grid, or 380:780:5. Errors as spec_grid_parse's. */
+enum spec_status spec_chart_options_grid(const struct spec_chart_options *options,
+	struct spec_grid *grid, struct spec_error *error);
 
 /*
  * Reads "NAME A..B" or "NAME A..B, NAME A..B" into the axes. Errors, with a caret
