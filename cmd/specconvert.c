@@ -151,10 +151,26 @@ take_format(struct job *job, const char *text, struct spec_error *error)
 }
 
 static enum spec_status
-take_option(struct job *job, const char *name, const char *value, struct spec_error *error)
+take_input(struct job *job, const char *path, struct spec_error *error)
 {
+	void *list = (void *)job->input;
+	enum spec_status status = spec_memory_grow(&list, &job->input_room, job->inputs + 1,
+		sizeof *job->input, "inputs", error);
+
+	job->input = list;
+	if (status == SPEC_OK)
+		job->input[job->inputs++] = path;
+	return status;
+}
+
+static enum spec_status
+take(void *state, const char *name, const char *value, struct spec_error *error)
+{
+	struct job *job = state;
 	int known;
 
+	if (!name)
+		return take_input(job, value, error);
 	if (strcmp(name, "grid") == 0) {
 		spec_grid_free(&job->grid);
 		return spec_grid_parse(value, &job->grid, error);
@@ -191,30 +207,11 @@ take_option(struct job *job, const char *name, const char *value, struct spec_er
 	return spec_settings_take(&job->settings, name, value, &known, error);
 }
 
-static enum spec_status
-take_input(struct job *job, const char *path, struct spec_error *error)
-{
-	void *list = (void *)job->input;
-	enum spec_status status = spec_memory_grow(&list, &job->input_room, job->inputs + 1,
-		sizeof *job->input, "inputs", error);
-
-	job->input = list;
-	if (status == SPEC_OK)
-		job->input[job->inputs++] = path;
-	return status;
-}
-
 static void
 parse(struct cli *cli, struct job *job, struct spec_error *error)
 {
 	spec_settings_init(&job->settings);
-	while (cli_next(cli)) {
-		enum spec_status status =
-			cli->name ? take_option(job, cli->name, cli->value, error)
-				  : take_input(job, cli->value, error);
-
-		cli_check(cli, status, error);
-	}
+	cli_take_each(cli, take, job);
 	if (job->inputs == 0)
 		cli_check(cli, take_input(job, "-", error), error);
 	if (job->grid.count > 0 && job->bands.count > 0)

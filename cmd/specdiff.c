@@ -115,10 +115,23 @@ take_tolerance(struct job *job, const char *text, struct spec_error *error)
 }
 
 static enum spec_status
-take_option(struct job *job, const char *name, const char *value, struct spec_error *error)
+take_image(struct job *job, const char *path, struct spec_error *error)
 {
+	if (job->inputs == 2)
+		return spec_error_set(error, SPEC_EUSAGE,
+			"two images at a time: '%s' is one too many", path);
+	job->input[job->inputs++] = path;
+	return SPEC_OK;
+}
+
+static enum spec_status
+take(void *state, const char *name, const char *value, struct spec_error *error)
+{
+	struct job *job = state;
 	int known;
 
+	if (!name)
+		return take_image(job, value, error);
 	if (strcmp(name, "metric") == 0)
 		return take_metrics(job, value, error);
 	if (strcmp(name, "tolerance") == 0)
@@ -139,19 +152,10 @@ take_option(struct job *job, const char *name, const char *value, struct spec_er
 }
 
 static void
-parse(struct cli *cli, struct job *job, struct spec_error *error)
+parse(struct cli *cli, struct job *job)
 {
 	spec_settings_init(&job->settings);
-	while (cli_next(cli)) {
-		if (cli->name)
-			cli_check(
-				cli, take_option(job, cli->name, cli->value, error), error);
-		else if (job->inputs == 2)
-			cli_usage(cli, "two images at a time: '%s' is one too many",
-				cli->value);
-		else
-			job->input[job->inputs++] = cli->value;
-	}
+	cli_take_each(cli, take, job);
 	if (job->inputs < 2)
 		cli_usage(cli, "two images are needed (try --help)");
 	if (strcmp(job->input[0], "-") == 0 && strcmp(job->input[1], "-") == 0)
@@ -376,7 +380,7 @@ main(int argc, char **argv)
 	struct cli cli;
 
 	cli_start(&cli, &program, argc, argv);
-	parse(&cli, &job, &error);
+	parse(&cli, &job);
 	cli_progress_start(&progress, "lines", job.settings.progress, job.settings.quiet);
 	job.settings.show = cli_progress_show;
 	job.settings.show_state = &progress;

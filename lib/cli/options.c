@@ -231,25 +231,43 @@ cli_next(struct cli *cli)
 	return 1;
 }
 
-const char *
-cli_take_all(struct cli *cli, const char *noun,
-	enum spec_status (*take)(
-		void *state, const char *name, const char *value, struct spec_error *error),
-	void *state)
+void
+cli_take_each(struct cli *cli, cli_take *take, void *state)
 {
 	struct spec_error error = {0};
-	const char *operand = NULL;
 
-	while (cli_next(cli)) {
-		if (cli->name)
-			cli_check(cli, take(state, cli->name, cli->value, &error), &error);
-		else if (operand)
-			cli_usage(cli, "one %s at a time: '%s' and '%s'", noun, operand,
-				cli->value);
-		else
-			operand = cli->value;
-	}
-	return operand;
+	while (cli_next(cli))
+		cli_check(cli, take(state, cli->name, cli->value, &error), &error);
+}
+
+/* What cli_take_all hands on, and what it keeps. */
+struct single {
+	const char *noun, *operand;
+	cli_take *take;
+	void *state;
+};
+
+static enum spec_status
+take_single(void *state, const char *name, const char *value, struct spec_error *error)
+{
+	struct single *single = state;
+
+	if (name)
+		return single->take(single->state, name, value, error);
+	if (single->operand)
+		return spec_error_set(error, SPEC_EUSAGE, "one %s at a time: '%s' and '%s'",
+			single->noun, single->operand, value);
+	single->operand = value;
+	return SPEC_OK;
+}
+
+const char *
+cli_take_all(struct cli *cli, const char *noun, cli_take *take, void *state)
+{
+	struct single single = {noun, NULL, take, state};
+
+	cli_take_each(cli, take_single, &single);
+	return single.operand;
 }
 
 void

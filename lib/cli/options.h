@@ -40,15 +40,19 @@ void cli_start(struct cli *cli, const struct cli_program *program, int argc, cha
  */
 int cli_next(struct cli *cli);
 
+/* Takes an option, or an operand where name is null; fails as the library does. */
+typedef enum spec_status cli_take(
+	void *state, const char *name, const char *value, struct spec_error *error);
+
+/* Takes all options and operands, in order; the first that fails ends the program. */
+void cli_take_each(struct cli *cli, cli_take *take, void *state);
+
 /*
- * Takes all options and operands of a tool that works on one thing: take gets each option,
- * and fails as the library does. Returns the operand, or null; a second one ends the
- * program. noun: what it is, for that message, such as "image".
+ * As cli_take_each, of a tool that works on one thing: take gets each option. Returns the
+ * operand, or null; a second one ends the program. noun: what it is, for that message, such
+ * as "image".
  */
-const char *cli_take_all(struct cli *cli, const char *noun,
-	enum spec_status (*take)(
-		void *state, const char *name, const char *value, struct spec_error *error),
-	void *state);
+const char *cli_take_all(struct cli *cli, const char *noun, cli_take *take, void *state);
 
 /* Ends the program: one line on stderr, "name: message", exit status 2. */
 _Noreturn void cli_die(const struct cli *cli, const struct spec_error *error);
