@@ -65,19 +65,18 @@
  * Q stay means); cover and light are means of all points, light that is not there being 0.
  */
 #include <math.h>
-#include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/memory.h"
 #include "base/number.h"
-#include "base/parallel.h"
 #include "cli/options.h"
 #include "image/names.h"
 #include "image/reader.h"
-#include "image/writer.h"
 #include "spectrum/grid.h"
+
+#include "making.h"
 
 #define PI 3.14159265358979323846
 #define MOST_FILMS 4
@@ -480,23 +479,13 @@ see_pixel(const struct scene *scene, int x, int y, struct pixel *pixel)
 	pixel->rest /= count;
 }
 
-static uint64_t
-splitmix(uint64_t state)
-{
-	uint64_t z = state + 0x9e3779b97f4a7c15U;
-
-	z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9U;
-	z = (z ^ z >> 27) * 0x94d049bb133111ebU;
-	return z ^ z >> 31;
-}
-
 /* G(which) of the text above, which is c there. */
 static double
 grain(int x, int y, int band, int which)
 {
 	uint64_t state = ((uint64_t)y << 32) + ((uint64_t)x << 16) +
 			 (uint64_t)(band + which * MOST_BANDS);
-	double noise = (double)(int32_t)(splitmix(state) >> 40) / (1 << 24);
+	double noise = (double)(int32_t)(making_splitmix(state) >> 40) / (1 << 24);
 
 	return (0.25 + (x + y) / 8192.0 + band / 512.0) * (1 + noise / 8);
 }
@@ -528,8 +517,6 @@ struct layers {
 	size_t planes, plane_room;
 	struct pixel model; /* stands for any: tells where in a pixel a number lies */
 	struct spec_image image;
-	struct spec_writer *writer;
-	atomic_int next_chunk;
 };
 
 /* The index, among the sources, of a number of layers->model. */
@@ -720,27 +707,6 @@ plan_spectrum(struct layers *layers, struct spec_error *error)
 	return SPEC_OK;
 }
 
-/* Half-way between the wavelengths, and as far beyond the first and the last. */
-static enum spec_status
-set_bins(struct layers *layers, struct spec_error *error)
-{
-	const double *wavelength_nm = layers->wavelengths.wavelength_nm;
-	size_t count = layers->wavelengths.count;
-	double *edges_nm = spec_memory_new(count + 1, sizeof *edges_nm, "edges", error);
-	enum spec_status status;
-
-	if (!edges_nm)
-		return SPEC_ENOMEM;
-	for (size_t i = 1; i < count; i++)
-		edges_nm[i] = (wavelength_nm[i - 1] + wavelength_nm[i]) / 2;
-	edges_nm[0] = wavelength_nm[0] - (count > 1 ? edges_nm[1] - wavelength_nm[0] : 0.5);
-	edges_nm[count] = 2 * wavelength_nm[count - 1] -
-			  (count > 1 ? edges_nm[count - 1] : edges_nm[0]);
-	status = spec_image_set_bins(&layers->image, edges_nm, count, error);
-	free(edges_nm);
-	return status;
-}
-
 static enum spec_status
 plan_image(struct layers *layers, struct spec_error *error)
 {
@@ -760,7 +726,7 @@ plan_image(struct layers *layers, struct spec_error *error)
 	if (status == SPEC_OK)
 		status = spec_image_set_text(image, "emissiveUnits", "W.m^-2.sr^-1", error);
 	if (status == SPEC_OK && layers->bins)
-		status = set_bins(layers, error);
+		status = making_set_bins(image, &layers->wavelengths, error);
 	if (status == SPEC_OK)
 		status = spec_image_index(image, layers->settings.output, error);
 	return status;
@@ -768,13 +734,7 @@ plan_image(struct layers *layers, struct spec_error *error)
 
 /* --- Writing. --- */
 
-/* A worker's own. */
-struct hand {
-	struct layers *layers;
-	struct spec_packer *packer;
-	double *value; /* of line y: [sources][width] */
-};
-
+/* The sources of line y: value is [sources][width]. */
 static void
 see_line(const struct layers *layers, int y, double *value)
 {
@@ -788,13 +748,12 @@ see_line(const struct layers *layers, int y, double *value)
 	}
 }
 
-/* One channel of line y. */
+/* One channel of line y; value: of its source. */
 static void
-fill_row(const struct hand *hand, const struct plane *plane, int y, float *row)
+fill_row(const struct layers *layers, const struct plane *plane, int y, const double *value,
+	float *row)
 {
-	const struct layers *layers = hand->layers;
 	size_t width = (size_t)layers->scene.width;
-	const double *value = hand->value + plane->source * width;
 	uint32_t *number = (uint32_t *)(void *)row;
 	double shape = plane->band >= 0 ? layers->shape[plane->band] : 1;
 
@@ -811,82 +770,30 @@ fill_row(const struct hand *hand, const struct plane *plane, int y, float *row)
 	}
 }
 
-static enum spec_status
-write_line(const struct hand *hand, int y, struct spec_error *error)
-{
-	const struct layers *layers = hand->layers;
-	float *const *row;
-	enum spec_status status = spec_packer_begin(hand->packer, y, &row, error);
-
-	if (status != SPEC_OK)
-		return status;
-	see_line(layers, y, hand->value);
-	for (size_t i = 0; i < layers->planes; i++)
-		fill_row(hand, &layers->plane[i], y, row[i]);
-	return spec_packer_end(hand->packer, y, error);
-}
-
-static enum spec_status
-write_lines(const struct hand *hand, struct spec_error *error)
-{
-	struct layers *layers = hand->layers;
-	int height = layers->scene.height;
-	int lines = spec_writer_chunk_lines(layers->writer);
-	enum spec_status status = SPEC_OK;
-
-	while (status == SPEC_OK) {
-		int first = atomic_fetch_add(&layers->next_chunk, 1) * lines;
-
-		if (first >= height)
-			break;
-		for (int y = first; y < first + lines && y < height && status == SPEC_OK;
-			y++)
-			status = write_line(hand, y, error);
-	}
-	return status;
-}
-
 static void
-work(void *argument, int worker)
+fill_line(const void *state, int y, void *room, float *const *row)
 {
-	struct hand hand = {.layers = argument};
-	struct layers *layers = hand.layers;
-	struct spec_error error = {0};
-	enum spec_status status = spec_packer_open(&hand.packer, layers->writer, &error);
+	const struct layers *layers = state;
+	size_t width = (size_t)layers->scene.width;
+	double *value = room;
 
-	(void)worker;
-	if (status == SPEC_OK) {
-		hand.value = spec_memory_new(layers->sources * (size_t)layers->scene.width,
-			sizeof *hand.value, "numbers of a line", &error);
-		status = hand.value ? SPEC_OK : SPEC_ENOMEM;
-	}
-	if (status == SPEC_OK)
-		status = write_lines(&hand, &error);
-	if (status != SPEC_OK)
-		spec_writer_stop(layers->writer, &error);
-	spec_packer_close(hand.packer);
-	free(hand.value);
+	see_line(layers, y, value);
+	for (size_t i = 0; i < layers->planes; i++)
+		fill_row(layers, &layers->plane[i], y,
+			value + layers->plane[i].source * width, row[i]);
 }
 
 static enum spec_status
-write_image(struct layers *layers, struct spec_error *error)
+write_image(const struct layers *layers, struct spec_error *error)
 {
-	struct spec_output output;
-	enum spec_status status = spec_output_open(&output, layers->settings.output, error);
+	struct making making = {.image = &layers->image,
+		.settings = &layers->settings,
+		.fill = fill_line,
+		.state = layers,
+		.room_bytes =
+			layers->sources * (size_t)layers->scene.width * sizeof(double)};
 
-	if (status != SPEC_OK)
-		return status;
-	status = spec_writer_open(&layers->writer, &layers->image, &output,
-		layers->settings.compression, error);
-	if (status == SPEC_OK)
-		status = spec_parallel_run(layers->settings.threads, work, layers, error);
-	if (status == SPEC_OK)
-		status = spec_writer_finish(layers->writer, error);
-	spec_writer_close(layers->writer);
-	if (status == SPEC_OK)
-		return spec_output_commit(&output, error);
-	spec_output_abandon(&output);
-	return status;
+	return making_write(&making, error);
 }
 
 /* --- Reading: --print. --- */

@@ -28,18 +28,17 @@
  * window is the data window.
  */
 #include <math.h>
-#include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/memory.h"
 #include "base/number.h"
-#include "base/parallel.h"
 #include "cli/options.h"
 #include "image/names.h"
-#include "image/writer.h"
 #include "spectrum/grid.h"
+
+#include "making.h"
 
 #define MOST_SPOTS 16
 #define MOST_ATTRIBUTES 64
@@ -88,8 +87,6 @@ struct synthesis {
 	struct plane *plane; /* in the order of the image's channels */
 	size_t planes;
 	struct spec_image image;
-	struct spec_writer *writer;
-	atomic_int next_chunk;
 };
 
 static const struct cli_option options[] = {
@@ -362,27 +359,6 @@ plan_planes(struct synthesis *synthesis, struct spec_error *error)
 	return status;
 }
 
-/* Half-way between the wavelengths, and as far beyond the first and the last. */
-static enum spec_status
-set_bins(struct synthesis *synthesis, struct spec_error *error)
-{
-	const double *wavelength_nm = synthesis->wavelengths.wavelength_nm;
-	size_t count = synthesis->wavelengths.count;
-	double *edges_nm = spec_memory_new(count + 1, sizeof *edges_nm, "edges", error);
-	enum spec_status status;
-
-	if (!edges_nm)
-		return SPEC_ENOMEM;
-	for (size_t i = 1; i < count; i++)
-		edges_nm[i] = (wavelength_nm[i - 1] + wavelength_nm[i]) / 2;
-	edges_nm[0] = wavelength_nm[0] - (count > 1 ? edges_nm[1] - wavelength_nm[0] : 0.5);
-	edges_nm[count] = 2 * wavelength_nm[count - 1] -
-			  (count > 1 ? edges_nm[count - 1] : edges_nm[0]);
-	status = spec_image_set_bins(&synthesis->image, edges_nm, count, error);
-	free(edges_nm);
-	return status;
-}
-
 static enum spec_status
 set_attributes(struct synthesis *synthesis, struct spec_error *error)
 {
@@ -396,7 +372,7 @@ set_attributes(struct synthesis *synthesis, struct spec_error *error)
 		status = spec_image_set_text(
 			image, "spec:quantity", synthesis->quantity, error);
 	if (status == SPEC_OK && synthesis->bins)
-		status = set_bins(synthesis, error);
+		status = making_set_bins(image, &synthesis->wavelengths, error);
 	for (size_t i = 0; i < synthesis->attributes && status == SPEC_OK; i++) {
 		const char *text = synthesis->attribute[i];
 		size_t length = strcspn(text, "=");
@@ -432,16 +408,6 @@ plan_image(struct synthesis *synthesis, struct spec_error *error)
 	return set_attributes(synthesis, error);
 }
 
-static uint64_t
-splitmix(uint64_t state)
-{
-	uint64_t z = state + 0x9e3779b97f4a7c15U;
-
-	z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9U;
-	z = (z ^ z >> 27) * 0x94d049bb133111ebU;
-	return z ^ z >> 31;
-}
-
 static void
 fill_noise(float *row, size_t width, int y, int band, float factor)
 {
@@ -449,7 +415,7 @@ fill_noise(float *row, size_t width, int y, int band, float factor)
 	uint64_t base = ((uint64_t)y << 32) + (uint64_t)band;
 
 	for (size_t x = 0; x < width; x++)
-		row[x] = scale * (float)(int32_t)(splitmix(base + (x << 16)) >> 40);
+		row[x] = scale * (float)(int32_t)(making_splitmix(base + (x << 16)) >> 40);
 }
 
 static void
@@ -502,78 +468,25 @@ fill_row(const struct synthesis *synthesis, const struct plane *plane, int y, fl
 	}
 }
 
-static enum spec_status
-write_lines(
-	struct synthesis *synthesis, struct spec_packer *packer, struct spec_error *error)
-{
-	int height = (int)spec_window_height(&synthesis->data);
-	int lines = spec_writer_chunk_lines(synthesis->writer);
-	enum spec_status status = SPEC_OK;
-
-	while (status == SPEC_OK) {
-		int first = atomic_fetch_add(&synthesis->next_chunk, 1) * lines;
-
-		if (first >= height)
-			break;
-		for (int y = first; y < first + lines && y < height && status == SPEC_OK;
-			y++) {
-			float *const *row;
-
-			status = spec_packer_begin(
-				packer, synthesis->data.y0 + y, &row, error);
-			if (status != SPEC_OK)
-				break;
-			for (size_t i = 0; i < synthesis->planes; i++)
-				fill_row(synthesis, &synthesis->plane[i], y, row[i]);
-			status = spec_packer_end(packer, synthesis->data.y0 + y, error);
-		}
-	}
-	return status;
-}
-
+/* All channels of line y. */
 static void
-work(void *argument, int worker)
+fill_line(const void *state, int y, void *room, float *const *row)
 {
-	struct synthesis *synthesis = argument;
-	struct spec_packer *packer;
-	struct spec_error error = {0};
-	enum spec_status status = spec_packer_open(&packer, synthesis->writer, &error);
+	const struct synthesis *synthesis = state;
 
-	(void)worker;
-	if (status == SPEC_OK)
-		status = write_lines(synthesis, packer, &error);
-	if (status != SPEC_OK)
-		spec_writer_stop(synthesis->writer, &error);
-	spec_packer_close(packer);
-}
-
-static enum spec_status
-write_image(struct synthesis *synthesis, struct spec_error *error)
-{
-	struct spec_output output;
-	enum spec_status status =
-		spec_output_open(&output, synthesis->settings.output, error);
-
-	if (status != SPEC_OK)
-		return status;
-	status = spec_writer_open(&synthesis->writer, &synthesis->image, &output,
-		synthesis->settings.compression, error);
-	if (status == SPEC_OK)
-		status = spec_parallel_run(
-			synthesis->settings.threads, work, synthesis, error);
-	if (status == SPEC_OK)
-		status = spec_writer_finish(synthesis->writer, error);
-	spec_writer_close(synthesis->writer);
-	if (status == SPEC_OK)
-		return spec_output_commit(&output, error);
-	spec_output_abandon(&output);
-	return status;
+	(void)room;
+	for (size_t i = 0; i < synthesis->planes; i++)
+		fill_row(synthesis, &synthesis->plane[i], y, row[i]);
 }
 
 int
 main(int argc, char **argv)
 {
 	static struct synthesis synthesis;
+	struct making making = {.image = &synthesis.image,
+		.settings = &synthesis.settings,
+		.fill = fill_line,
+		.state = &synthesis};
 	struct spec_error error;
 	struct cli cli;
 
@@ -586,7 +499,7 @@ main(int argc, char **argv)
 		&error);
 	cli_check(&cli, plan_planes(&synthesis, &error), &error);
 	cli_check(&cli, plan_image(&synthesis, &error), &error);
-	cli_check(&cli, write_image(&synthesis, &error), &error);
+	cli_check(&cli, making_write(&making, &error), &error);
 	spec_image_clear(&synthesis.image);
 	for (size_t i = 0; i < synthesis.planes; i++)
 		free((char *)synthesis.plane[i].name);
