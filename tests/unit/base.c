@@ -1,8 +1,4 @@
 /* Numbers, memory, messages, input, output and threads. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -18,8 +14,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <cmocka.h>
-
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/number.h"
@@ -27,7 +21,7 @@
 #include "base/parallel.h"
 #include "base/source.h"
 
-#define COUNT(list) (sizeof(list) / sizeof *(list))
+#include "check.h"
 
 /* Messages */
 

@@ -1,14 +1,8 @@
 /* Observers, spaces, adaptation, encoding and colour differences. */
 #include <float.h>
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-
-#include <cmocka.h>
 
 #include "colour/difference.h"
 #include "colour/encode.h"
@@ -17,14 +11,7 @@
 #include "spectrum/curve.h"
 #include "spectrum/spd.h"
 
-#define COUNT(list) (sizeof(list) / sizeof *(list))
-
-static void
-near(double got, double wanted, double tolerance, const char *what)
-{
-	if (!(fabs(got - wanted) <= tolerance))
-		fail_msg("%s: got %.17g, wanted %.17g +- %g", what, got, wanted, tolerance);
-}
+#include "check.h"
 
 static void
 near_all(const double *got, const double *wanted, size_t count, double tolerance,

@@ -1,17 +1,13 @@
 /* How far apart two images are. */
 #include <float.h>
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
-
 #include "colour/difference.h"
 #include "compare/measure.h"
+
+#include "check.h"
 
 #define PI 3.14159265358979323846
 
@@ -21,13 +17,6 @@ enum { BANDS = 5, WIDTH = 150, HEIGHT = 7 };
 struct pair {
 	float a[HEIGHT][BANDS][WIDTH], b[HEIGHT][BANDS][WIDTH];
 };
-
-static void
-near(double got, double wanted, double tolerance, const char *what)
-{
-	if (!(fabs(got - wanted) <= tolerance))
-		fail_msg("%s: got %.17g, wanted %.17g +- %g", what, got, wanted, tolerance);
-}
 
 static void
 at(struct spec_measure_place place, size_t x, int y, size_t band)

@@ -1,16 +1,10 @@
 /* What specconvert and spec2rgb compute, against closed forms on images made for it. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include <math.h>
 #include <unistd.h>
-
-#include <cmocka.h>
 
 #include "base/output.h"
 #include "colour/space.h"
@@ -19,7 +13,7 @@
 #include "image/rgb.h"
 #include "spectrum/product.h"
 
-#define COUNT(list) (sizeof(list) / sizeof *(list))
+#include "check.h"
 
 /* A float is rounded once where it is stored: half of 2^-23, relative. */
 #define FLOAT_ROUNDING 0x1p-24

@@ -1,35 +1,17 @@
 /* lib/optics/disc: the two models of optical discs. */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-
-#include <cmocka.h>
 
 #include "optics/disc.h"
 #include "optics/grating.h"
 
+#include "check.h"
+#include "random.h"
+
 #define PI 3.14159265358979323846
 
 #define MOST 700 /* pixels: more than two runs of the library, the last one in part */
-
-static void
-near(double got, double wanted, double tolerance, const char *what)
-{
-	if (!(fabs(got - wanted) <= tolerance))
-		fail_msg("%s: got %.17g, wanted %.17g +- %g", what, got, wanted, tolerance);
-}
-
-/* A number in [low, high). */
-static double
-random_in(uint64_t *seed, double low, double high)
-{
-	*seed = *seed * 6364136223846793005u + 1442695040888963407u; /* Knuth, MMIX */
-	return low + (high - low) * (double)(*seed >> 11) / 9007199254740992.;
-}
 
 static struct spec_disc
 disc_named(const char *name)

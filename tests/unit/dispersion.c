@@ -1,39 +1,14 @@
 /* Dispersion formulas and refractive indices, against published values. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include <math.h>
 #include <stdio.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
-#include <cmocka.h>
 
 #include "optics/dispersion.h"
 #include "optics/index.h"
 
-#define COUNT(list) (sizeof(list) / sizeof *(list))
-
-/* Curves that are no index, or a bad one, lie in its folder glass. */
-static char scratch[] = "/tmp/spectools-dispersion-XXXXXX";
-
-static void
-near(double got, double wanted, double tolerance, const char *what)
-{
-	if (!(fabs(got - wanted) <= tolerance))
-		fail_msg("%s: got %.17g, wanted %.17g +- %g", what, got, wanted, tolerance);
-}
-
-static void
-assert_contains(const char *text, const char *part)
-{
-	if (!strstr(text, part))
-		fail_msg("'%s' is not in '%s'", part, text);
-}
+#include "files.h"
 
 /* Formulas */
 
@@ -535,52 +510,24 @@ test_index_part(void **state)
 
 /* Scratch */
 
-static void
-make_file(const char *name, const char *text)
-{
-	char path[256];
-	FILE *file;
-
-	snprintf(path, sizeof path, "%s/glass/%s.spd", scratch, name);
-	file = fopen(path, "w");
-	assert_non_null(file);
-	fputs(text, file);
-	assert_int_equal(fclose(file), 0);
-}
-
-/* Our own data, and behind them the files of this test. */
+/* Our own data, and behind them the curves of this test: no index, or a bad one. */
 static int
 make_scratch(void **state)
 {
-	char path[4096], folder[3800];
-
 	(void)state;
-	if (!mkdtemp(scratch) || !getcwd(folder, sizeof folder))
+	if (scratch_make("dispersion") != 0)
 		return -1;
-	snprintf(path, sizeof path, "%s/glass", scratch);
-	if (mkdir(path, 0777) != 0)
-		return -1;
-	make_file("plain", "# columns: wavelength_nm n\n400 1\n600 2\n");
-	make_file("swapped", "# quantity: refractive index\n"
-			     "# columns: wavelength_nm dn k n\n400 9 0 1\n600 9 .5 2\n");
-	make_file("nameless", "# quantity: refractive index\n400 1\n600 2\n");
-	make_file("gaining", "# columns: wavelength_nm n k\n400 1 0\n600 2 -1e-9\n");
-	make_file("nothing", "# columns: wavelength_nm n k\n400 0 0\n600 2 1\n");
-	make_file("damaged", "400\n");
-	snprintf(path, sizeof path, "%s%s%s",
-		access("spectra/glass", R_OK) == 0 ? folder : "",
-		access("spectra/glass", R_OK) == 0 ? "/spectra:" : "", scratch);
-	return setenv("SPECTRA_PATH", path, 1);
-}
-
-static int
-remove_scratch(void **state)
-{
-	char command[64];
-
-	(void)state;
-	snprintf(command, sizeof command, "rm -rf %s", scratch);
-	return system(command);
+	make_folder("glass");
+	save_text("glass/plain.spd", "# columns: wavelength_nm n\n400 1\n600 2\n");
+	save_text("glass/swapped.spd",
+		"# quantity: refractive index\n"
+		"# columns: wavelength_nm dn k n\n400 9 0 1\n600 9 .5 2\n");
+	save_text("glass/nameless.spd", "# quantity: refractive index\n400 1\n600 2\n");
+	save_text("glass/gaining.spd",
+		"# columns: wavelength_nm n k\n400 1 0\n600 2 -1e-9\n");
+	save_text("glass/nothing.spd", "# columns: wavelength_nm n k\n400 0 0\n600 2 1\n");
+	save_text("glass/damaged.spd", "400\n");
+	return scratch_search();
 }
 
 int
@@ -600,5 +547,5 @@ main(void)
 	};
 
 	return cmocka_run_group_tests_name(
-		"dispersion", tests, make_scratch, remove_scratch);
+		"dispersion", tests, make_scratch, scratch_remove);
 }

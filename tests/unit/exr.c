@@ -2,10 +2,6 @@
  * Reader and writer of spectral EXR against each other and against OpenEXRCore: every
  * compression, sample and window, from files and pipes, by any number of threads.
  */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -14,11 +10,8 @@
 #include <math.h>
 #include <openexr.h>
 #include <stdatomic.h>
-#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
-
-#include <cmocka.h>
 
 #include "base/output.h"
 #include "base/parallel.h"
@@ -27,7 +20,8 @@
 #include "image/reader.h"
 #include "image/writer.h"
 
-#define COUNT(list) (sizeof(list) / sizeof *(list))
+#include "files.h"
+
 #define MOST_CHANNELS 8
 #define MOST_THREADS 8
 
@@ -826,28 +820,11 @@ test_selection(void **state)
 
 /* Bytes that do not depend on threads, nor on whether a pipe or a file takes them. */
 
-static unsigned char *
-take_file(const char *path, size_t *size)
-{
-	FILE *stream = fopen(path, "rb");
-	unsigned char *bytes;
-	struct stat status;
-
-	assert_non_null(stream);
-	assert_int_equal(fstat(fileno(stream), &status), 0);
-	*size = (size_t)status.st_size;
-	bytes = malloc(*size + 1);
-	assert_non_null(bytes);
-	assert_int_equal(fread(bytes, 1, *size, stream), *size);
-	fclose(stream);
-	return bytes;
-}
-
 static void
 assert_same_files(const char *a, const char *b)
 {
 	size_t size_a, size_b;
-	unsigned char *bytes_a = take_file(a, &size_a), *bytes_b = take_file(b, &size_b);
+	unsigned char *bytes_a = file_bytes(a, &size_a), *bytes_b = file_bytes(b, &size_b);
 
 	assert_int_equal(size_a, size_b);
 	assert_memory_equal(bytes_a, bytes_b, size_a);
@@ -1360,7 +1337,7 @@ reorder_chunks(const char *path, exr_lineorder_t order)
 {
 	static const char line_order[] = "lineOrder\0lineOrder\0\1\0\0";
 	size_t size, at, to, chunks, *chunk;
-	unsigned char *bytes = take_file(path, &size), *copy = malloc(size);
+	unsigned char *bytes = file_bytes(path, &size), *copy = malloc(size);
 	uint64_t table[256];
 	FILE *stream = fopen(path, "wb");
 

@@ -5,45 +5,18 @@
 #include <complex.h>
 #include <float.h>
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
-
 #include "optics/fresnel.h"
+
+#include "check.h"
+#include "random.h"
 
 #define ULP DBL_EPSILON /* of 1 */
 #define DEGREE (3.14159265358979323846 / 180)
 
 enum { RANDOM = 20000 };
-
-static void
-near(double got, double wanted, double tolerance, const char *what)
-{
-	if (!(fabs(got - wanted) <= tolerance))
-		fail_msg("%s: got %.17g, wanted %.17g +- %g", what, got, wanted, tolerance);
-}
-
-/* 0 to 1, by splitmix64. */
-static double
-random_share(uint64_t *state)
-{
-	uint64_t z = *state += 0x9e3779b97f4a7c15;
-
-	z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9;
-	z = (z ^ z >> 27) * 0x94d049bb133111eb;
-	return (double)((z ^ z >> 31) >> 11) * 0x1p-53;
-}
-
-static double
-random_between(uint64_t *state, double least, double most)
-{
-	return least * pow(most / least, random_share(state));
-}
 
 struct amplitudes {
 	long double complex s, p;

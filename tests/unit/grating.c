@@ -1,31 +1,13 @@
 /* lib/optics/grating: where orders go, and how much light goes there. */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
 
 #include "optics/grating.h"
 
+#include "check.h"
+#include "random.h"
+
 #define PI 3.14159265358979323846
 #define DEGREE (PI / 180)
-
-static void
-near(double got, double wanted, double tolerance, const char *what)
-{
-	if (!(fabs(got - wanted) <= tolerance))
-		fail_msg("%s: got %.17g, wanted %.17g +- %g", what, got, wanted, tolerance);
-}
-
-/* A number in [low, high). */
-static double
-random_in(uint64_t *seed, double low, double high)
-{
-	*seed = *seed * 6364136223846793005u + 1442695040888963407u; /* Knuth, MMIX */
-	return low + (high - low) * (double)(*seed >> 11) / 9007199254740992.;
-}
 
 /* A unit vector above the surface. */
 static void

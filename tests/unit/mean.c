@@ -1,25 +1,12 @@
 /* lib/spectrum/mean: means of curves over bins. */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-
-#include <cmocka.h>
 
 #include "spectrum/curve.h"
 #include "spectrum/mean.h"
 
-#define COUNT(list) (sizeof(list) / sizeof *(list))
-
-static void
-near(double got, double wanted, double tolerance, const char *what)
-{
-	if (!(fabs(got - wanted) <= tolerance))
-		fail_msg("%s: got %.17g, wanted %.17g +- %g", what, got, wanted, tolerance);
-}
+#include "check.h"
 
 /* Uniform in [0, 1). */
 static double

@@ -1,18 +1,14 @@
 /* Names of channels, the bands that they form, and what an image says of itself. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include <math.h>
 
-#include <cmocka.h>
-
 #include "image/image.h"
 #include "image/names.h"
+
+#include "check.h"
 
 /* The text of a string attribute, or null. Inlined, gcc 12 takes it for a dangling pointer. */
 static __attribute__((noinline)) char *
@@ -24,7 +20,6 @@ text_of(const struct spec_image *image, const char *name)
 	return text;
 }
 
-#define COUNT(list) (sizeof(list) / sizeof *(list))
 #define LIGHT_NM_PER_S 299792458e9 /* exact, SI 2019 */
 
 /* Each operation of the reading rounds once; there are at most four. */

@@ -1,25 +1,19 @@
 /* Pictures: what is written is read back by other means. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include <fcntl.h>
 #include <png.h>
-#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
-
-#include <cmocka.h>
 
 #include "image/image.h"
 #include "image/picture.h"
 #include "image/reader.h"
 
-#define COUNT(list) (sizeof(list) / sizeof *(list))
+#include "files.h"
+
 #define WIDTH 37
 #define HEIGHT 23
 #define SAMPLES ((size_t)WIDTH * HEIGHT * 3)
@@ -114,17 +108,8 @@ write_picture(struct fixture *fixture, const char *name, int bits, const char *s
 static unsigned char *
 take_file(const char *path, size_t *size)
 {
-	FILE *stream = fopen(path, "rb");
-	unsigned char *bytes;
-	struct stat status;
+	unsigned char *bytes = file_bytes(path, size);
 
-	assert_non_null(stream);
-	assert_int_equal(fstat(fileno(stream), &status), 0);
-	*size = (size_t)status.st_size;
-	bytes = malloc(*size + 1);
-	assert_non_null(bytes);
-	assert_int_equal(fread(bytes, 1, *size, stream), *size);
-	fclose(stream);
 	unlink(path);
 	return bytes;
 }

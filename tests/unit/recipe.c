@@ -1,37 +1,13 @@
 /* Recipes: what is read, and where the caret stands under what is not. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include <math.h>
 #include <stdio.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
-#include <cmocka.h>
 
 #include "optics/recipe.h"
 
-#define COUNT(list) (sizeof(list) / sizeof *(list))
-
-static char scratch[] = "/tmp/spectools-recipe-XXXXXX";
-
-static void
-near(double got, double wanted, double tolerance, const char *what)
-{
-	if (!(fabs(got - wanted) <= tolerance))
-		fail_msg("%s: got %.17g, wanted %.17g +- %g", what, got, wanted, tolerance);
-}
-
-static void
-assert_contains(const char *text, const char *part)
-{
-	if (!strstr(text, part))
-		fail_msg("'%s' is not in '%s'", part, text);
-}
+#include "files.h"
 
 static void
 parse(const char *text, struct spec_recipe *recipe)
@@ -526,49 +502,20 @@ test_sample(void **state)
 
 /* Scratch */
 
-static void
-make_file(const char *name, const char *text)
-{
-	char path[256];
-	FILE *file;
-
-	snprintf(path, sizeof path, "%s/glass/%s.spd", scratch, name);
-	file = fopen(path, "w");
-	assert_non_null(file);
-	fputs(text, file);
-	assert_int_equal(fclose(file), 0);
-}
-
 /* Our own data, and behind them the files of this test. */
 static int
 make_scratch(void **state)
 {
-	char path[4096], folder[3800];
-
 	(void)state;
-	if (!mkdtemp(scratch) || !getcwd(folder, sizeof folder))
+	if (scratch_make("recipe") != 0)
 		return -1;
-	snprintf(path, sizeof path, "%s/glass", scratch);
-	if (mkdir(path, 0777) != 0)
-		return -1;
-	make_file("step", "# columns: wavelength_nm n k\n400 1 0\n600 2 .5\n");
-	make_file("gaining", "# columns: wavelength_nm n k\n400 1 0\n600 2 -1e-9\n");
-	make_file("damaged", "400\n");
-	make_file("\303\266l", "# columns: wavelength_nm n\n400 1\n600 2\n");
-	snprintf(path, sizeof path, "%s%s%s",
-		access("spectra/glass", R_OK) == 0 ? folder : "",
-		access("spectra/glass", R_OK) == 0 ? "/spectra:" : "", scratch);
-	return setenv("SPECTRA_PATH", path, 1);
-}
-
-static int
-remove_scratch(void **state)
-{
-	char command[64];
-
-	(void)state;
-	snprintf(command, sizeof command, "rm -rf %s", scratch);
-	return system(command);
+	make_folder("glass");
+	save_text("glass/step.spd", "# columns: wavelength_nm n k\n400 1 0\n600 2 .5\n");
+	save_text("glass/gaining.spd",
+		"# columns: wavelength_nm n k\n400 1 0\n600 2 -1e-9\n");
+	save_text("glass/damaged.spd", "400\n");
+	save_text("glass/\303\266l.spd", "# columns: wavelength_nm n\n400 1\n600 2\n");
+	return scratch_search();
 }
 
 int
@@ -586,5 +533,5 @@ main(void)
 		cmocka_unit_test(test_sample),
 	};
 
-	return cmocka_run_group_tests_name("recipe", tests, make_scratch, remove_scratch);
+	return cmocka_run_group_tests_name("recipe", tests, make_scratch, scratch_remove);
 }

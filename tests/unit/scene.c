@@ -1,34 +1,18 @@
 /* lib/scene: what scene files say, and where the faults are in those that say nothing. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include <fcntl.h>
 #include <math.h>
 #include <stdio.h>
-#include <sys/stat.h>
 #include <unistd.h>
-
-#include <cmocka.h>
 
 #include "base/nearest.h"
 #include "scene/parse.h"
 #include "scene/ply.h"
 #include "scene/transform.h"
 
-#define COUNT(list) (sizeof(list) / sizeof *(list))
-
-static char scratch[] = "/tmp/spectools-scene-XXXXXX";
-
-static void
-assert_contains(const char *text, const char *part)
-{
-	if (!strstr(text, part))
-		fail_msg("'%s' is not in '%s'", part, text);
-}
+#include "files.h"
 
 static void
 assert_begins(const char *text, const char *part)
@@ -1299,26 +1283,6 @@ nesting_has_its_limit(void **state)
 
 /* ---- files ---- */
 
-/* Writes a file into the scratch folder. */
-static void
-save(const char *name, const void *bytes, size_t size)
-{
-	char path[200];
-	FILE *file;
-
-	snprintf(path, sizeof path, "%s/%s", scratch, name);
-	file = fopen(path, "wb");
-	assert_non_null(file);
-	assert_int_equal(fwrite(bytes, 1, size, file), size);
-	assert_int_equal(fclose(file), 0);
-}
-
-static void
-save_text(const char *name, const char *text)
-{
-	save(name, text, strlen(text));
-}
-
 static enum spec_status
 read_file(const char *name, struct spec_scene *scene, struct spec_error *error)
 {
@@ -1779,25 +1743,13 @@ scenes_name_meshes(void **state)
 /* ---- all of them ---- */
 
 static int
-set_up(void **state)
+make_scratch(void **state)
 {
-	char path[200];
-
 	(void)state;
-	if (!mkdtemp(scratch))
+	if (scratch_make("scene") != 0)
 		return -1;
-	snprintf(path, sizeof path, "%s/sub", scratch);
-	return mkdir(path, 0700);
-}
-
-static int
-tear_down(void **state)
-{
-	char command[200];
-
-	(void)state;
-	snprintf(command, sizeof command, "rm -rf '%s'", scratch);
-	return system(command);
+	make_folder("sub");
+	return 0;
 }
 
 int
@@ -1849,5 +1801,5 @@ main(void)
 		cmocka_unit_test(scenes_name_meshes),
 	};
 
-	return cmocka_run_group_tests(tests, set_up, tear_down);
+	return cmocka_run_group_tests(tests, make_scratch, scratch_remove);
 }

@@ -1,22 +1,17 @@
 /* lib/spectrum: grids, curves, the spd format, names, and the data in spectra/. */
-#include <stdarg.h>
-#include <setjmp.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include "spectrum/curve.h"
 #include "spectrum/grid.h"
 #include "spectrum/lookup.h"
 #include "spectrum/spd.h"
+
+#include "files.h"
 
 #define assert_near(got, want, tolerance) check_near(got, want, tolerance, __LINE__)
 
@@ -26,13 +21,6 @@ check_near(double got, double want, double tolerance, int line)
 	if (!(fabs(got - want) <= tolerance))
 		fail_msg("line %d: got %.9g, want %.9g within %g", line, got, want,
 			tolerance);
-}
-
-static void
-assert_contains(const char *text, const char *part)
-{
-	if (!strstr(text, part))
-		fail_msg("'%s' is not in '%s'", part, text);
 }
 
 /* ---- grids ---- */
@@ -540,37 +528,23 @@ one_sample_is_known_at_its_wavelength_alone(void **state)
 
 /* ---- names ---- */
 
-static char scratch[] = "/tmp/spectools-spectrum-XXXXXX";
 static char own_data[4096]; /* the repository's spectra/, or "" */
-
-static void
-make_folder(const char *path)
-{
-	char whole[256];
-
-	snprintf(whole, sizeof whole, "%s/%s", scratch, path);
-	assert_int_equal(mkdir(whole, 0777), 0);
-}
 
 /* A file of one sample of that value. */
 static void
 make_file(const char *path, int value)
 {
-	char whole[256];
-	FILE *file;
+	char text[32];
 
-	snprintf(whole, sizeof whole, "%s/%s", scratch, path);
-	file = fopen(whole, "w");
-	assert_non_null(file);
-	fprintf(file, "500 %d\n", value);
-	assert_int_equal(fclose(file), 0);
+	snprintf(text, sizeof text, "500 %d\n", value);
+	save_text(path, text);
 }
 
 static int
 make_scratch(void **state)
 {
 	(void)state;
-	if (!mkdtemp(scratch))
+	if (scratch_make("spectrum") != 0)
 		return -1;
 	make_folder("a");
 	make_folder("a/glass");
@@ -593,16 +567,6 @@ make_scratch(void **state)
 	make_file("b/glass/second.spd", 11);
 	make_file("plain.csv", 12);
 	return 0;
-}
-
-static int
-remove_scratch(void **state)
-{
-	char command[64];
-
-	(void)state;
-	snprintf(command, sizeof command, "rm -rf %s", scratch);
-	return system(command);
 }
 
 static void
@@ -1024,5 +988,5 @@ main(void)
 	};
 
 	find_own_data();
-	return cmocka_run_group_tests(tests, make_scratch, remove_scratch);
+	return cmocka_run_group_tests(tests, make_scratch, scratch_remove);
 }

@@ -1,14 +1,8 @@
 /* lib/colour/upsample: spectra for RGB colours. */
 #include <float.h>
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-
-#include <cmocka.h>
 
 #include "colour/difference.h"
 #include "colour/observer.h"
@@ -16,18 +10,11 @@
 #include "spectrum/mean.h"
 #include "spectrum/spd.h"
 
-#define COUNT(list) (sizeof(list) / sizeof *(list))
+#include "check.h"
 
 /* What all tests use: sRGB's upsampler, and the curves it was made of. */
 static struct spec_upsampler srgb;
 static struct spec_curve observer, d65;
-
-static void
-near(double got, double wanted, double tolerance, const char *what)
-{
-	if (!(fabs(got - wanted) <= tolerance))
-		fail_msg("%s: got %.17g, wanted %.17g +- %g", what, got, wanted, tolerance);
-}
 
 /* Uniform in [0, 1). */
 static double
