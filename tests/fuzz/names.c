@@ -8,16 +8,7 @@
 #include "base/number.h"
 #include "image/names.h"
 
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
-
-static void
-require(int holds, const char *what)
-{
-	if (holds)
-		return;
-	fprintf(stderr, "fuzz: %s\n", what);
-	abort();
-}
+#include "fuzz.h"
 
 /* A band's name in the layout is read as the band that it names, to six decimals. */
 static void

@@ -18,22 +18,13 @@
 #include "image/reader.h"
 #include "image/writer.h"
 
+#include "fuzz.h"
+
 #define PIPE_BYTES (1 << 20)
 #define WAY_PIPE 1
 #define WAY_WRITE 2
 #define WAY_SOME 4                        /* every other channel is wanted */
 #define WAY_BLOCK(way) (1 + ((way) >> 3)) /* lines that are fetched together */
-
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
-
-static void
-require(int holds, const char *what)
-{
-	if (holds)
-		return;
-	fprintf(stderr, "fuzz: %s\n", what);
-	abort();
-}
 
 static void
 settle(struct spec_settings *settings)

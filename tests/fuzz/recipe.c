@@ -7,27 +7,16 @@
 
 #include "optics/recipe.h"
 
+#include "fuzz.h"
+
 #define MOST_WRITTEN 100 /* layers; more of them only take time */
 
-int LLVMFuzzerInitialize(int *argc, char ***argv);
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
-
-static void
-require(int holds, const char *what)
-{
-	if (holds)
-		return;
-	fprintf(stderr, "fuzz: %s\n", what);
-	abort();
-}
-
-/* make fuzz runs at the top of the repository, where our spectra are. */
 int
 LLVMFuzzerInitialize(int *argc, char ***argv)
 {
 	(void)argc;
 	(void)argv;
-	setenv("SPECTRA_PATH", "spectra", 0);
+	use_our_spectra();
 	return 0;
 }
 

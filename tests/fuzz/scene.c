@@ -13,27 +13,16 @@
 #include "scene/parse.h"
 #include "scene/ply.h"
 
+#include "fuzz.h"
+
 #define NAME "/no/such/folder/input.pbrt"
 
-int LLVMFuzzerInitialize(int *argc, char ***argv);
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
-
-static void
-require(int holds, const char *what)
-{
-	if (holds)
-		return;
-	fprintf(stderr, "fuzz: %s\n", what);
-	abort();
-}
-
-/* make fuzz runs at the top of the repository, where our spectra are. */
 int
 LLVMFuzzerInitialize(int *argc, char ***argv)
 {
 	(void)argc;
 	(void)argv;
-	setenv("SPECTRA_PATH", "spectra", 0);
+	use_our_spectra();
 	return 0;
 }
 

@@ -6,16 +6,7 @@
 
 #include "spectrum/spd.h"
 
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
-
-static void
-require(int holds, const char *what)
-{
-	if (holds)
-		return;
-	fprintf(stderr, "fuzz: %s\n", what);
-	abort();
-}
+#include "fuzz.h"
 
 static void
 compare(const struct spec_curve *one, const struct spec_curve *two)
