@@ -69,8 +69,8 @@ map_channel(struct spec_image *image, enum spec_role role, const char **text,
 		return spec_error_set(error, SPEC_EUSAGE,
 			"%s: has no channel '%.*s' to be mapped", name, shown, *text);
 	if (channel->naming == SPEC_NAMING_GIVEN)
-		return spec_error_set(error, SPEC_EUSAGE, "'%.*s' is mapped twice", shown,
-			*text);
+		return spec_error_set(
+			error, SPEC_EUSAGE, "'%.*s' is mapped twice", shown, *text);
 	if (channel->role != SPEC_ROLE_OTHER)
 		return spec_error_set(error, SPEC_EUSAGE,
 			"%s: channel '%.*s' says itself that it is of %g nm", name, shown,

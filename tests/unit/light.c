@@ -601,8 +601,8 @@ add_sky(struct fixture *f, double (*at)(int x, int y, double wavelength_nm), dou
 	struct spec_error error;
 	int file;
 
-	strcpy(f->picture, "/tmp/light.XXXXXX");
-	file = mkstemp(f->picture);
+	strcpy(f->picture, "/tmp/light.XXXXXX.exr");
+	file = mkstemps(f->picture, 4);
 	assert_true(file >= 0);
 	close(file);
 	check(spec_image_add_bands(&sky.image, SPEC_ROLE_EMISSIVE, 1, wavelength_nm, 5,

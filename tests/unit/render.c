@@ -465,8 +465,8 @@ render_picture(struct fixture *f, const struct spec_render_setup *wanted, int th
 
 	setup.grid = &f->grid;
 	setup.supersample = setup.supersample ? setup.supersample : 1;
-	strcpy(picture->path, "/tmp/render.XXXXXX");
-	file = mkstemp(picture->path);
+	strcpy(picture->path, "/tmp/render.XXXXXX.exr");
+	file = mkstemps(picture->path, 4);
 	assert_true(file >= 0);
 	close(file);
 	f->settings.output = picture->path;
