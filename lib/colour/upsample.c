@@ -12,6 +12,7 @@
 #include "colour/observer.h"
 #include "spectrum/lookup.h"
 #include "spectrum/mean.h"
+#include "spectrum/sigmoid.h"
 
 /* How far the illuminant's chromaticity may lie from the space's white, in x and in y. */
 #define SAME_WHITE .001
@@ -33,14 +34,7 @@
  */
 #define MOST_COEFFICIENT 1000
 
-/*
- * Means are taken over pieces of a bin, so narrow that the polynomial is nearly straight.
- * Over a piece h wide it leaves its chord by |c0| h^2 / 6 on average, and S' <= 1/2, so
- * the mean is off by |c0| h^2 / 12 at most: 1e-6.
- */
-#define MOST_BEND 12e-6   /* |c0| h^2 */
 #define LIGHT_PIECE_NM .1 /* over one, light and sigmoid are averaged each for itself */
-#define MOST_PIECES 65536 /* in a bin */
 
 /* A colour to be met, with the wavelengths of the observer scaled to [-1, 1]. */
 struct fit {
@@ -213,18 +207,6 @@ spec_upsampler_free(struct spec_upsampler *upsampler)
 
 /* The fit */
 
-/*
- * S(x), in a form that keeps its digits near 0 and gives 0 and 1 at the infinities. Half
- * of 1 + x/r is ((r + x)/r)/2, and (r + x)(r - x) = 1.
- */
-static inline double
-sigmoid_of(double x)
-{
-	double r = sqrt(1 + x * x), tail = .5 / (r * (r + fabs(x)));
-
-	return x < 0 ? tail : 1 - tail;
-}
-
 /* The x of which S(x) is value, which lies in [0, 1]. */
 static double
 inverse_sigmoid(double value)
@@ -243,7 +225,7 @@ project(const struct fit *fit, const double c[3], double xyz[3], double slope[9]
 	for (size_t i = 0; i < up->count; i++) {
 		double t = (up->wavelength_nm[i] - fit->middle_nm) / fit->half_nm;
 		double x = (c[0] * t + c[1]) * t + c[2], square = 1 + x * x;
-		double value = sigmoid_of(x), rise = .5 / (square * sqrt(square));
+		double value = spec_sigmoid_of(x), rise = .5 / (square * sqrt(square));
 
 		for (int r = 0; r < 3; r++) {
 			double weight = up->weight[(size_t)r * up->count + i];
@@ -429,66 +411,7 @@ spec_upsample_unbounded(const struct spec_upsampler *upsampler, const double rgb
 	return status;
 }
 
-/* Values and means */
-
-static inline double
-polynomial_at(const struct spec_sigmoid *sigmoid, double nm)
-{
-	return (sigmoid->c0_per_nm2 * nm + sigmoid->c1_per_nm) * nm + sigmoid->c2;
-}
-
-SPEC_VECTORISED void
-spec_sigmoid_sample(const struct spec_sigmoid *sigmoid, const double *wavelength_nm,
-	size_t count, double *value)
-{
-	const struct spec_sigmoid s = *sigmoid;
-
-	for (size_t i = 0; i < count; i++)
-		value[i] = s.scale * sigmoid_of(polynomial_at(&s, wavelength_nm[i]));
-}
-
-/* How many straight pieces of at most a width do for the polynomial over a bin. */
-static size_t
-count_pieces(const struct spec_sigmoid *sigmoid, double bin_nm, double widest_nm)
-{
-	double most_nm = fmin(widest_nm, sqrt(MOST_BEND / fabs(sigmoid->c0_per_nm2)));
-
-	return (size_t)fmin(fmax(ceil(bin_nm / most_nm), 1), MOST_PIECES);
-}
-
-/*
- * The mean of S(x) while x goes straight from a to b. S integrates to (x + r) / 2 with
- * r = sqrt(1 + x^2), and (rb - ra) / (b - a) = (a + b) / (ra + rb); x + r without loss
- * of digits below 0.
- */
-static double
-mean_between(double a, double b)
-{
-	double ra = sqrt(1 + a * a), rb = sqrt(1 + b * b);
-	double sum_a = a < 0 ? 1 / (ra - a) : ra + a;
-	double sum_b = b < 0 ? 1 / (rb - b) : rb + b;
-
-	return .5 * (sum_a + sum_b) / (ra + rb);
-}
-
-void
-spec_sigmoid_mean(const struct spec_sigmoid *sigmoid, const double *edges_nm, size_t bins,
-	double *value)
-{
-	for (size_t i = 0; i < bins; i++) {
-		double a_nm = edges_nm[i], width_nm = edges_nm[i + 1] - a_nm, sum = 0;
-		size_t pieces = count_pieces(sigmoid, width_nm, HUGE_VAL);
-		double from = polynomial_at(sigmoid, a_nm), to;
-
-		for (size_t j = 1; j <= pieces && isfinite(sigmoid->c2); j++, from = to) {
-			to = polynomial_at(
-				sigmoid, a_nm + width_nm * ((double)j / (double)pieces));
-			sum += mean_between(from, to);
-		}
-		value[i] = sigmoid->scale * (isfinite(sigmoid->c2) ? sum / (double)pieces
-								   : sigmoid_of(from));
-	}
-}
+/* Coloured lights */
 
 enum spec_status
 spec_upsampler_sample_light(const struct spec_upsampler *upsampler,
@@ -521,7 +444,7 @@ mean_light_of_bin(const struct spec_upsampler *upsampler,
 	struct spec_error *error)
 {
 	double width_nm = bin_nm[1] - bin_nm[0], sum = 0;
-	size_t count = count_pieces(sigmoid, width_nm, LIGHT_PIECE_NM);
+	size_t count = spec_sigmoid_pieces(sigmoid, width_nm, LIGHT_PIECE_NM);
 	enum spec_status status;
 
 	for (size_t j = 0; j < count; j++)
@@ -544,7 +467,7 @@ most_pieces(const struct spec_sigmoid *sigmoid, const double *edges_nm, size_t b
 	size_t most = 1;
 
 	for (size_t i = 0; i < bins; i++) {
-		size_t count = count_pieces(
+		size_t count = spec_sigmoid_pieces(
 			sigmoid, edges_nm[i + 1] - edges_nm[i], LIGHT_PIECE_NM);
 
 		most = count > most ? count : most;

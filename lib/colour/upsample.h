@@ -1,7 +1,5 @@
 /*
- * Spectra for RGB colours: a sigmoid of a quadratic polynomial of the wavelength,
- *     scale * S(c0 l^2 + c1 l + c2),  S(x) = 1/2 + x / (2 sqrt(1 + x^2)),  l in nm,
- * smooth, and in [0, scale] at every wavelength.
+ * Spectra for RGB colours: the sigmoids of spectrum/sigmoid.h that have them.
  * Source: Jakob, Hanika: A low-dimensional function space for efficient spectral
  *         upsampling. Computer Graphics Forum 38 (2), 2019, 147-155; unbounded colours
  *         and lights: Pharr, Jakob, Humphreys: Physically Based Rendering, 4th edition,
@@ -15,12 +13,7 @@
 #include "base/error.h"
 #include "colour/space.h"
 #include "spectrum/curve.h"
-
-struct spec_sigmoid {
-	double scale;
-	double c0_per_nm2, c1_per_nm;
-	double c2; /* an infinity where the spectrum is 0 or scale everywhere */
-};
+#include "spectrum/sigmoid.h"
 
 /* What colours of one space are fitted against; afterwards only read, by any threads. */
 struct spec_upsampler {
@@ -81,17 +74,6 @@ enum spec_status spec_upsample_albedo(const struct spec_upsampler *upsampler,
  */
 enum spec_status spec_upsample_unbounded(const struct spec_upsampler *upsampler,
 	const double rgb[3], struct spec_sigmoid *sigmoid, struct spec_error *error);
-
-/* The spectrum at count wavelengths [nm], finite. */
-void spec_sigmoid_sample(const struct spec_sigmoid *sigmoid, const double *wavelength_nm,
-	size_t count, double *value);
-
-/*
- * Its means over bins, the i-th from edges_nm[i] to edges_nm[i + 1], ascending: within
- * 1e-6 scale of the exact ones in bins up to 1000 nm wide, and never outside [0, scale].
- */
-void spec_sigmoid_mean(const struct spec_sigmoid *sigmoid, const double *edges_nm,
-	size_t bins, double *value);
 
 /*
  * A coloured light: the spectrum times upsampler->light, at wavelengths and as means over
