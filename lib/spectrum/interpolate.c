@@ -125,6 +125,46 @@ to_legendre(const double a[6], double coefficient[6])
 
 /* Pieces */
 
+/* Gauss and Legendre's rule of 6 points on [-1, 1]: Abramowitz and Stegun 1964, 25.4. */
+const double spec_gauss_node[6] = {-.9324695142031521, -.6612093864662645,
+	-.2386191860831969, .2386191860831969, .6612093864662645, .9324695142031521};
+static const double gauss_share[6] = {.1713244923791704, .3607615730481386,
+	.4679139345726910, .4679139345726910, .3607615730481386, .1713244923791704};
+
+/* The sum of coefficient[l] P_l(t). */
+static double
+legendre_sum(const double *coefficient, int terms, double t)
+{
+	double before = 0, at = 1, sum = 0;
+
+	for (int l = 0; l < terms; l++) {
+		double next = ((2 * l + 1) * t * at - l * before) / (l + 1);
+
+		sum += coefficient[l] * at;
+		before = at;
+		at = next;
+	}
+	return sum;
+}
+
+void
+spec_piece_fit(struct spec_piece *piece, const double value[6])
+{
+	memset(piece->coefficient, 0, sizeof piece->coefficient);
+	for (int k = 0; k < 6; k++) {
+		double t = spec_gauss_node[k], before = 0, at = 1;
+
+		for (int l = 0; l < piece->terms; l++) {
+			double next = ((2 * l + 1) * t * at - l * before) / (l + 1);
+
+			piece->coefficient[l] +=
+				.5 * (2 * l + 1) * gauss_share[k] * value[k] * at;
+			before = at;
+			at = next;
+		}
+	}
+}
+
 int
 spec_samples_pieces(
 	const struct spec_samples *samples, size_t i, struct spec_piece pieces[2])
@@ -152,6 +192,26 @@ spec_samples_pieces(
 		break;
 	}
 	return 1;
+}
+
+void
+spec_piece_cut(struct spec_piece *piece, double low_nm, double high_nm)
+{
+	double from_nm = fmax(piece->from_nm, low_nm), to_nm = fmin(piece->to_nm, high_nm);
+	double scale = 2 / (piece->to_nm - piece->from_nm), value[6];
+
+	if (from_nm == piece->from_nm && to_nm == piece->to_nm)
+		return;
+	for (int k = 0; k < 6; k++) {
+		double nm = .5 * (from_nm + to_nm) +
+			    .5 * (to_nm - from_nm) * spec_gauss_node[k];
+
+		value[k] = legendre_sum(piece->coefficient, piece->terms,
+			scale * (nm - piece->from_nm) - 1);
+	}
+	spec_piece_fit(piece, value);
+	piece->from_nm = from_nm;
+	piece->to_nm = to_nm;
 }
 
 /* The last sample at or below a wavelength, but never the very last one. */

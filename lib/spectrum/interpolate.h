@@ -54,9 +54,20 @@ struct spec_piece {
 	double coefficient[6];
 };
 
+/*
+ * Sets the coefficients of a piece, terms of them, from its values where t is
+ * spec_gauss_node, the points of Gauss and Legendre's rule: exact for a polynomial of degree
+ * below 6.
+ */
+extern const double spec_gauss_node[6];
+void spec_piece_fit(struct spec_piece *piece, const double value[6]);
+
 /* The pieces between the samples i and i + 1, i + 1 < count: 1, or 2 for the nearest. */
 int spec_samples_pieces(
 	const struct spec_samples *samples, size_t i, struct spec_piece pieces[2]);
+
+/* What of a piece lies between two wavelengths, where it has some there. */
+void spec_piece_cut(struct spec_piece *piece, double low_nm, double high_nm);
 
 /* The function at a wavelength from the first sample to the last. */
 double spec_samples_at(const struct spec_samples *samples, double nm);
