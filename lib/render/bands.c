@@ -76,6 +76,24 @@ sample_blackbody(const struct spec_bands_grid *bands, double temperature_k, doub
 }
 
 static enum spec_status
+sample_spectrum(const struct spec_bands_grid *bands, const struct spec_spectrum *spectrum,
+	enum spec_bands_use use, double *value, struct spec_error *error)
+{
+	enum spec_status status;
+
+	if (use == SPEC_BANDS_LIGHT)
+		return spec_spectrum_mean(spectrum, SPEC_EXTRAPOLATE_ZERO, bands->edges_nm,
+			bands->count, value, error);
+	status = spec_spectrum_sample(spectrum, bands->extrapolate, bands->wavelength_nm,
+		bands->count, value, error);
+	if (status != SPEC_OK || use == SPEC_BANDS_INDEX)
+		return status;
+	/* The outer edges may reach beyond data that the bands' middles do not leave. */
+	return spec_spectrum_mean(spectrum, SPEC_EXTRAPOLATE_CONSTANT, bands->edges_nm,
+		bands->count, value, error);
+}
+
+static enum spec_status
 sample_rgb(const struct spec_bands_grid *bands, const double rgb[3],
 	enum spec_bands_use use, double *value, struct spec_error *error)
 {
@@ -117,6 +135,9 @@ spec_bands_sample(const struct spec_bands_grid *bands, const struct spec_scene *
 		break;
 	case SPEC_SCENE_CURVE:
 		status = sample_curve(bands, &spectrum->curve, use, value, error);
+		break;
+	case SPEC_SCENE_SPECTRUM:
+		status = sample_spectrum(bands, &spectrum->spectrum, use, value, error);
 		break;
 	case SPEC_SCENE_RGB:
 		status = sample_rgb(bands, spectrum->rgb, use, value, error);

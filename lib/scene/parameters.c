@@ -21,7 +21,14 @@ static const struct type types[] = {{"float", SPEC_FLOAT}, {"integer", SPEC_INTE
 	{"bool", SPEC_BOOL}, {"string", SPEC_STRING}, {"point2", SPEC_POINT2},
 	{"vector2", SPEC_VECTOR2}, {"point3", SPEC_POINT3}, {"vector3", SPEC_VECTOR3},
 	{"normal", SPEC_NORMAL}, {"spectrum", SPEC_SPECTRUM}, {"rgb", SPEC_RGB},
-	{"blackbody", SPEC_BLACKBODY}, {"texture", SPEC_TEXTURE}, {NULL, 0}};
+	{"blackbody", SPEC_BLACKBODY}, {"texture", SPEC_TEXTURE},
+	{"samplespectrum", SPEC_SAMPLED_SPECTRUM},
+	{"tabulatedspectrum", SPEC_TABULATED_SPECTRUM},
+	{"fourierspectrum", SPEC_FOURIER_SPECTRUM},
+	{"compositespectrumsampled", SPEC_COMPOSITE_SAMPLED},
+	{"compositespectrumfourier", SPEC_COMPOSITE_FOURIER},
+	{"rgbspectrum", SPEC_RGB_SPECTRUM}, {"rgbfromsampled", SPEC_RGB_FROM_SAMPLED},
+	{"rgbfromtabulated", SPEC_RGB_FROM_TABULATED}, {NULL, 0}};
 
 static const char *
 type_name(enum spec_parameter_type type)
@@ -308,8 +315,9 @@ fail_type(const struct spec_arguments *arguments, const struct spec_parameter *p
 	if (parameter->type == SPEC_TEXTURE)
 		return spec_arguments_fail(arguments, parameter, SPEC_EUNSUPPORTED,
 			"is a texture, and textures are not supported");
+	/* Where any spectrum will do, pbrt's own types say so. */
 	for (size_t i = 0; types[i].name; i++)
-		if (wanted & types[i].type)
+		if (wanted & types[i].type & ~(unsigned)SPEC_REPRESENTED)
 			end += (size_t)snprintf(list + end, sizeof list - end, "%s%s",
 				end > 0 ? " or " : "", types[i].name);
 	return spec_arguments_fail(arguments, parameter, SPEC_EFORMAT,

@@ -24,10 +24,24 @@ enum spec_parameter_type {
 	SPEC_SPECTRUM = 1 << 9,
 	SPEC_RGB = 1 << 10,
 	SPEC_BLACKBODY = 1 << 11,
-	SPEC_TEXTURE = 1 << 12
+	SPEC_TEXTURE = 1 << 12,
+	/* Representations that pbrt has not: see represented.h. */
+	SPEC_SAMPLED_SPECTRUM = 1 << 13,
+	SPEC_TABULATED_SPECTRUM = 1 << 14,
+	SPEC_FOURIER_SPECTRUM = 1 << 15,
+	SPEC_COMPOSITE_SAMPLED = 1 << 16,
+	SPEC_COMPOSITE_FOURIER = 1 << 17,
+	SPEC_RGB_SPECTRUM = 1 << 18,
+	SPEC_RGB_FROM_SAMPLED = 1 << 19,
+	SPEC_RGB_FROM_TABULATED = 1 << 20
 };
 
-#define SPEC_ANY_SPECTRUM (SPEC_SPECTRUM | SPEC_RGB | SPEC_BLACKBODY | SPEC_FLOAT)
+#define SPEC_REPRESENTED                                                                   \
+	(SPEC_SAMPLED_SPECTRUM | SPEC_TABULATED_SPECTRUM | SPEC_FOURIER_SPECTRUM |         \
+		SPEC_COMPOSITE_SAMPLED | SPEC_COMPOSITE_FOURIER | SPEC_RGB_SPECTRUM |      \
+		SPEC_RGB_FROM_SAMPLED | SPEC_RGB_FROM_TABULATED)
+#define SPEC_ANY_SPECTRUM                                                                  \
+	(SPEC_SPECTRUM | SPEC_RGB | SPEC_BLACKBODY | SPEC_FLOAT | SPEC_REPRESENTED)
 
 struct spec_parameter {
 	enum spec_parameter_type type;

@@ -7,6 +7,13 @@
 
 #include "base/memory.h"
 
+void
+spec_scene_spectrum_free(struct spec_scene_spectrum *spectrum)
+{
+	spec_curve_free(&spectrum->curve);
+	spec_spectrum_free(&spectrum->spectrum);
+}
+
 static void
 free_texts(char **text, size_t count)
 {
@@ -18,9 +25,9 @@ free_texts(char **text, size_t count)
 static void
 free_material(struct spec_scene_material *material)
 {
-	spec_curve_free(&material->reflectance.curve);
-	spec_curve_free(&material->eta.curve);
-	spec_curve_free(&material->k.curve);
+	spec_scene_spectrum_free(&material->reflectance);
+	spec_scene_spectrum_free(&material->eta);
+	spec_scene_spectrum_free(&material->k);
 	free(material->stack);
 	free(material->thickness);
 	free(material->preset);
@@ -38,7 +45,7 @@ free_shape(struct spec_scene_shape *shape)
 static void
 free_light(struct spec_scene_light *light)
 {
-	spec_curve_free(&light->spectrum.curve);
+	spec_scene_spectrum_free(&light->spectrum);
 	free(light->picture);
 }
 

@@ -11,6 +11,7 @@
 
 #include "base/error.h"
 #include "spectrum/curve.h"
+#include "spectrum/spectrum.h"
 
 #define SPEC_SCENE_NONE SIZE_MAX /* in place of a number in one of the lists */
 
@@ -29,7 +30,8 @@ enum spec_scene_spectrum_kind {
 	SPEC_SCENE_CONSTANT,  /* value at all wavelengths */
 	SPEC_SCENE_CURVE,     /* curve's first column */
 	SPEC_SCENE_BLACKBODY, /* of the temperature value [K], 1 at its peak */
-	SPEC_SCENE_RGB        /* in linear sRGB; what it stands for depends on its use */
+	SPEC_SCENE_RGB,       /* in linear sRGB; what it stands for depends on its use */
+	SPEC_SCENE_SPECTRUM   /* a Fourier series, or anything with lines */
 };
 
 struct spec_scene_spectrum {
@@ -37,6 +39,7 @@ struct spec_scene_spectrum {
 	double value;
 	double rgb[3];
 	struct spec_curve curve;
+	struct spec_spectrum spectrum;
 	struct spec_scene_place place;
 };
 
@@ -124,6 +127,9 @@ struct spec_scene {
 };
 
 void spec_scene_free(struct spec_scene *scene);
+
+/* Frees what a spectrum holds; an empty one is allowed. */
+void spec_scene_spectrum_free(struct spec_scene_spectrum *spectrum);
 
 /* Puts "file:line:column: " before the message that is there. */
 void spec_scene_prefix(const struct spec_scene *scene, const struct spec_scene_place *place,

@@ -7,6 +7,7 @@
 
 #include "optics/index.h"
 #include "scene/paths.h"
+#include "scene/represented.h"
 #include "spectrum/curve.h"
 #include "spectrum/lookup.h"
 #include "spectrum/spd.h"
@@ -20,16 +21,17 @@ static const struct {
 	{"a refractive index", 0, SPEC_INDEX_LARGEST, 1},
 	{"an extinction coefficient", 0, SPEC_INDEX_LARGEST, 0}};
 
-static int
-fits(enum spec_scene_use use, double value)
+int
+spec_scene_fits(enum spec_scene_use use, double value)
 {
 	return value >= ranges[use].least && value <= ranges[use].most &&
 	       (value > ranges[use].least || !ranges[use].above);
 }
 
-static enum spec_status
-fail_value(const struct spec_arguments *arguments, const struct spec_parameter *parameter,
-	enum spec_scene_use use, double value, double wavelength_nm)
+enum spec_status
+spec_scene_fail_value(const struct spec_arguments *arguments,
+	const struct spec_parameter *parameter, enum spec_scene_use use, double value,
+	double wavelength_nm)
 {
 	char where[40] = "";
 	const char *what = ranges[use].what;
@@ -47,22 +49,29 @@ fail_value(const struct spec_arguments *arguments, const struct spec_parameter *
 		value, where);
 }
 
+const char *
+spec_scene_use_name(enum spec_scene_use use)
+{
+	return ranges[use].what;
+}
+
 /* ---- curves ---- */
 
-static enum spec_status
-check_curve(const struct spec_arguments *arguments, const struct spec_parameter *parameter,
-	enum spec_scene_use use, const struct spec_curve *curve)
+enum spec_status
+spec_scene_check_curve(const struct spec_arguments *arguments,
+	const struct spec_parameter *parameter, enum spec_scene_use use,
+	const struct spec_curve *curve)
 {
 	for (size_t i = 0; i < curve->count; i++)
-		if (!fits(use, curve->value[i]))
-			return fail_value(arguments, parameter, use, curve->value[i],
-				curve->wavelength_nm[i]);
+		if (!spec_scene_fits(use, curve->value[i]))
+			return spec_scene_fail_value(arguments, parameter, use,
+				curve->value[i], curve->wavelength_nm[i]);
 	return SPEC_OK;
 }
 
-static enum spec_status
-read_table(const struct spec_arguments *arguments, const struct spec_parameter *parameter,
-	struct spec_curve *curve)
+enum spec_status
+spec_scene_read_table(const struct spec_arguments *arguments,
+	const struct spec_parameter *parameter, struct spec_curve *curve)
 {
 	const double *number = parameter->number;
 	size_t count = parameter->count / 2;
@@ -260,7 +269,7 @@ read_named(const struct spec_arguments *arguments, const struct spec_parameter *
 			"is %s, which '%.60s' is not", ranges[use].what, name);
 	status = keep_column(curve, column, arguments->error);
 	if (status == SPEC_OK)
-		status = check_curve(arguments, parameter, use, curve);
+		status = spec_scene_check_curve(arguments, parameter, use, curve);
 	return status;
 }
 
@@ -270,15 +279,15 @@ static enum spec_status
 read_numbers(const struct spec_arguments *arguments, const struct spec_parameter *parameter,
 	enum spec_scene_use use, struct spec_scene_spectrum *spectrum)
 {
-	int rgb = parameter->type == SPEC_RGB;
+	int rgb = parameter->type == SPEC_RGB || parameter->type == SPEC_RGB_SPECTRUM;
 
 	if (parameter->count != (rgb ? 3 : 1))
 		return spec_arguments_fail(arguments, parameter, SPEC_EFORMAT,
 			"takes %d value%s, not %zu", rgb ? 3 : 1, rgb ? "s" : "",
 			parameter->count);
 	for (size_t i = 0; i < parameter->count; i++)
-		if (!fits(use, parameter->number[i]))
-			return fail_value(
+		if (!spec_scene_fits(use, parameter->number[i]))
+			return spec_scene_fail_value(
 				arguments, parameter, use, parameter->number[i], 0);
 	spectrum->kind = rgb ? SPEC_SCENE_RGB : SPEC_SCENE_CONSTANT;
 	if (rgb)
@@ -318,6 +327,8 @@ read_spectrum(const struct spec_arguments *arguments,
 
 	if (parameter->type == SPEC_BLACKBODY)
 		return read_blackbody(arguments, parameter, use, spectrum);
+	if (parameter->type & SPEC_REPRESENTED & ~(unsigned)SPEC_RGB_SPECTRUM)
+		return spec_scene_read_represented(arguments, parameter, use, spectrum);
 	if (parameter->type != SPEC_SPECTRUM)
 		return read_numbers(arguments, parameter, use, spectrum);
 	if (parameter->text) {
@@ -327,9 +338,10 @@ read_spectrum(const struct spec_arguments *arguments,
 					 : status;
 	}
 	spectrum->kind = SPEC_SCENE_CURVE;
-	status = read_table(arguments, parameter, &spectrum->curve);
+	status = spec_scene_read_table(arguments, parameter, &spectrum->curve);
 	if (status == SPEC_OK)
-		status = check_curve(arguments, parameter, use, &spectrum->curve);
+		status =
+			spec_scene_check_curve(arguments, parameter, use, &spectrum->curve);
 	return status;
 }
 
@@ -349,7 +361,7 @@ spec_arguments_spectrum(const struct spec_arguments *arguments, const char *name
 	if (status == SPEC_OK)
 		*spectrum = read;
 	else
-		spec_curve_free(&read.curve);
+		spec_scene_spectrum_free(&read);
 	return status;
 }
 
@@ -363,6 +375,6 @@ spec_arguments_named_spectrum(const struct spec_arguments *arguments, const char
 	if (status == SPEC_OK)
 		*spectrum = read;
 	else
-		spec_curve_free(&read.curve);
+		spec_scene_spectrum_free(&read);
 	return status;
 }

@@ -26,6 +26,7 @@ enum spec_scene_use {
  *                                      and k columns of that name
  *   "spectrum eta" "metal-Au-eta"      pbrt's names: metal-*-eta, metal-*-k, glass-* and
  *                                      stdillum-*, where spectra/ has the same
+ *   and what represented.h has
  * *given: whether there is such a parameter; else spectrum stays what it was.
  * SPEC_EFORMAT, SPEC_ERANGE, SPEC_EUNSUPPORTED: a name of pbrt's that is not in spectra/;
  * others as spec_lookup_curve and spec_spd_load.

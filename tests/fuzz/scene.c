@@ -99,6 +99,11 @@ check_spectrum(const struct spec_scene_spectrum *spectrum, double least, double 
 		require(curve->value[i] >= least && curve->value[i] <= most,
 			"a value out of range");
 	require(curve->count == 0 || curve->columns == 1, "several columns");
+	require((spectrum->kind == SPEC_SCENE_SPECTRUM) ==
+			(spectrum->spectrum.title != NULL),
+		"no spectrum");
+	for (size_t i = 0; i < spectrum->spectrum.lines; i++)
+		require(spectrum->spectrum.line[i].weight > 0, "a line out of range");
 	if (spectrum->kind == SPEC_SCENE_CONSTANT)
 		require(spectrum->value >= least && spectrum->value <= most,
 			"a constant out of range");

@@ -643,3 +643,26 @@ wrong_at() {
   render --size 1x1 --spp 1 --defer film,disc --gbuffer a.pbrt -o b.exr
   has_line b.exr 'dataWindow (type box2i): (0 0) - (0 0)'
 }
+
+# ---- spectra in other representations ----
+
+@test "the lines of a light bring their energy into the bands that hold them" {
+  scene a.pbrt WorldBegin 'LightSource "infinite" "compositespectrumsampled L" [ 2 300 800 1 1 404.66 30 546.07 50 650 8 ]'
+  render -o a.exr a.pbrt
+  numbers a.exr | awk '
+    function wants(value) { for (i = 2; i <= NF; i++) if ($i < value - 1e-6 || $i > value + 1e-6) exit 1; rows++ }
+    $1 == 400 { wants(1.3) } $1 == 500 { wants(1.5) } $1 == 600 { wants(1) } $1 == 700 { wants(1.08) }
+    END { exit rows != 4 }'
+  specrender --no-history --grid 540:550:1 -o b.exr a.pbrt
+  numbers b.exr | awk '
+    { if ($2 < ($1 == 546 ? 51 : 1) - 1e-5 || $2 > ($1 == 546 ? 51 : 1) + 1e-5) exit 1; rows++ }
+    END { exit rows != 11 }'
+}
+
+@test "a Fourier spectrum that falls below 0 is clamped, with a warning" {
+  scene a.pbrt WorldBegin 'LightSource "infinite" "fourierspectrum L" [ 300 800 1 1 0 ]'
+  run --separate-stderr specrender --grid 400:600:50 -o a.exr a.pbrt
+  [ "$status" = 0 ]
+  [[ $stderr == *"a.pbrt:5:24: 'L' of "*'is light and -0.5 at 550 nm; it is clamped'* ]]
+  numbers a.exr | awk '{ if ($2 < 0 || ($1 >= 500 && $2 != 0) || ($1 == 400 && $2 < .7)) exit 1; rows++ } END { exit rows != 5 }'
+}
