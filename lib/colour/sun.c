@@ -1,0 +1,300 @@
+#include "colour/sun.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "colour/observer.h"
+#include "colour/upsample.h"
+#include "spectrum/lookup.h"
+
+#define PI 3.14159265358979323846
+#define LN_2 0.693147180559945309417
+
+/* The spectrum locus, as far as its chromaticities are told apart. */
+#define LOCUS_FROM_NM 380
+#define LOCUS_TO_NM 700
+
+/* Chromaticities closer to white than this have no direction. */
+#define SAME_XY 1e-12
+
+/* A weight is negative beyond rounding below this part of the largest. */
+#define NONE 1e-9
+
+static const double centre_nm[3] = {680, 550, 450};
+
+/* The observer's chromaticity of a wavelength, less the white's. */
+static void
+locus_at(const struct spec_curve *observer, size_t i, const double white_xy[2],
+	double from_white[2])
+{
+	double x = observer->value[i], y = observer->value[observer->count + i];
+	double sum = x + y + observer->value[2 * observer->count + i];
+
+	from_white[0] = x / sum - white_xy[0];
+	from_white[1] = y / sum - white_xy[1];
+}
+
+/* One over the distance at which the ray along a direction crosses the side a..b, or 0. */
+static double
+nearness_of_side(const double a[2], const double b[2], const double direction[2])
+{
+	double side[2] = {b[0] - a[0], b[1] - a[1]};
+	double across = direction[0] * side[1] - direction[1] * side[0];
+	double along = (a[1] * direction[0] - a[0] * direction[1]) / -across;
+	double distance = (a[0] * side[1] - a[1] * side[0]) / across;
+
+	if (!(along >= -1e-9 && along <= 1 + 1e-9 && distance > 0))
+		return 0;
+	return 1 / distance;
+}
+
+/* Of several crossings the farthest counts. */
+static double
+nearness_along(const struct spec_curve *observer, const double white_xy[2], double angle)
+{
+	double direction[2] = {cos(angle), sin(angle)}, first[2], last[2] = {0}, next[2];
+	double least = HUGE_VAL;
+	int begun = 0;
+
+	for (size_t i = 0; i < observer->count; i++) {
+		double nearness;
+
+		if (observer->wavelength_nm[i] < LOCUS_FROM_NM ||
+			observer->wavelength_nm[i] > LOCUS_TO_NM)
+			continue;
+		locus_at(observer, i, white_xy, next);
+		if (!begun++)
+			memcpy(first, next, sizeof first);
+		else if ((nearness = nearness_of_side(last, next, direction)) > 0)
+			least = fmin(least, nearness);
+		memcpy(last, next, sizeof last);
+	}
+	if (begun) {
+		double nearness = nearness_of_side(last, first, direction);
+
+		least = nearness > 0 ? fmin(least, nearness) : least;
+	}
+	return least;
+}
+
+static enum spec_status
+find_locus(
+	const struct spec_curve *observer, struct spec_sun *sun, struct spec_error *error)
+{
+	for (size_t k = 0; k <= SPEC_SUN_DIRECTIONS; k++) {
+		double angle = PI * (2 * (double)k / SPEC_SUN_DIRECTIONS - 1);
+
+		sun->nearness[k] = nearness_along(observer, sun->white_xy, angle);
+		if (!isfinite(sun->nearness[k]))
+			return spec_error_set(error, SPEC_EFORMAT,
+				"the observer '%s' has no locus around white",
+				observer->title);
+	}
+	return SPEC_OK;
+}
+
+/* The weights of light itself, at the observer's samples. */
+static enum spec_status
+weigh_light(
+	const struct spec_curve *observer, struct spec_sun *sun, struct spec_error *error)
+{
+	struct spec_bands bands = {
+		.count = observer->count, .wavelength_nm = observer->wavelength_nm};
+	size_t bytes = observer->count * sizeof *sun->wavelength_nm;
+	double outside;
+
+	sun->count = observer->count;
+	sun->wavelength_nm = spec_memory_new(1, bytes, "wavelengths", error);
+	sun->weight = spec_memory_new(3, bytes, "weights", error);
+	if (!sun->wavelength_nm || !sun->weight)
+		return SPEC_ENOMEM;
+	memcpy(sun->wavelength_nm, observer->wavelength_nm, bytes);
+	return spec_observer_weights(observer, NULL, &bands, sun->weight, &outside, error);
+}
+
+/* Those under the space's white light, which an upsampler has. */
+static enum spec_status
+weigh_factor(const struct spec_space *space, struct spec_sun *sun, struct spec_error *error)
+{
+	struct spec_upsampler upsampler;
+	enum spec_status status = spec_upsampler_load(space, &upsampler, error);
+
+	if (status != SPEC_OK)
+		return status;
+	sun->count = upsampler.count;
+	sun->wavelength_nm = upsampler.wavelength_nm;
+	sun->weight = upsampler.weight;
+	memcpy(sun->to_xyz, upsampler.to_xyz, sizeof sun->to_xyz);
+	upsampler.wavelength_nm = upsampler.weight = NULL;
+	spec_upsampler_free(&upsampler);
+	return SPEC_OK;
+}
+
+enum spec_status
+spec_sun_load(const struct spec_space *space, int lit, struct spec_sun *sun,
+	struct spec_error *error)
+{
+	struct spec_curve observer = {0};
+	enum spec_status status;
+
+	*sun = (struct spec_sun){.white_xy = {space->white_xy[0], space->white_xy[1]}};
+	status = spec_lookup_curve(spec_observer_spectrum("1931"), &observer, error);
+	if (status == SPEC_OK && lit) {
+		status = weigh_factor(space, sun, error);
+	} else if (status == SPEC_OK) {
+		status = spec_space_to_xyz(space, sun->to_xyz, error);
+		if (status == SPEC_OK)
+			status = weigh_light(&observer, sun, error);
+	}
+	if (status == SPEC_OK)
+		status = find_locus(&observer, sun, error);
+	spec_curve_free(&observer);
+	if (status != SPEC_OK)
+		spec_sun_free(sun);
+	return status;
+}
+
+void
+spec_sun_free(struct spec_sun *sun)
+{
+	if (!sun)
+		return;
+	free(sun->wavelength_nm);
+	free(sun->weight);
+	*sun = (struct spec_sun){0};
+}
+
+double
+spec_sun_width(const struct spec_sun *sun, const double rgb[3])
+{
+	double xyz[3], sum, x, y, distance, at, purity;
+	size_t k;
+
+	spec_matrix_apply(sun->to_xyz, rgb, xyz);
+	sum = xyz[0] + xyz[1] + xyz[2];
+	if (!(sum > 0))
+		return SPEC_SUN_WIDEST_NM;
+	x = xyz[0] / sum - sun->white_xy[0];
+	y = xyz[1] / sum - sun->white_xy[1];
+	distance = hypot(x, y);
+	if (distance < SAME_XY)
+		return SPEC_SUN_WIDEST_NM;
+	at = (atan2(y, x) / PI + 1) * (SPEC_SUN_DIRECTIONS / 2);
+	k = at < SPEC_SUN_DIRECTIONS - 1 ? (size_t)at : SPEC_SUN_DIRECTIONS - 1;
+	purity = distance *
+		 (sun->nearness[k] +
+			 (at - (double)k) * (sun->nearness[k + 1] - sun->nearness[k]));
+	return SPEC_SUN_WIDEST_NM +
+	       fmin(purity, 1) * (SPEC_SUN_NARROWEST_NM - SPEC_SUN_WIDEST_NM);
+}
+
+double
+spec_sun_gaussian(int i, double width_nm, double wavelength_nm)
+{
+	double off = 2 * (wavelength_nm - centre_nm[i]) / width_nm;
+
+	return exp(-LN_2 * off * off);
+}
+
+double
+spec_sun_gaussian_mean(int i, double width_nm, double from_nm, double to_nm)
+{
+	double steep = 2 * sqrt(LN_2) / width_nm;
+	double from = steep * (from_nm - centre_nm[i]), to = steep * (to_nm - centre_nm[i]);
+	/* Far from the middle erf is near 1, and erfc keeps the digits. */
+	double area = from > 0 ? erfc(from) - erfc(to)
+		      : to < 0 ? erfc(-to) - erfc(-from)
+			       : erf(to) - erf(from);
+
+	return .5 * sqrt(PI) * area / (to - from);
+}
+
+enum spec_status
+spec_sun_matrix(
+	const struct spec_sun *sun, double width_nm, double m[9], struct spec_error *error)
+{
+	double xyz[9] = {0};
+	enum spec_status status;
+
+	for (size_t k = 0; k < sun->count; k++) {
+		for (int i = 0; i < 3; i++) {
+			double value =
+				spec_sun_gaussian(i, width_nm, sun->wavelength_nm[k]);
+
+			for (size_t c = 0; c < 3; c++)
+				xyz[3 * c + (size_t)i] +=
+					sun->weight[c * sun->count + k] * value;
+		}
+	}
+	status = spec_matrix_invert(xyz, m, error);
+	if (status == SPEC_OK)
+		spec_matrix_multiply(m, sun->to_xyz, m);
+	return status;
+}
+
+int
+spec_sun_is_met(const double weight[3])
+{
+	double most = fmax(weight[0], fmax(weight[1], weight[2]));
+	double least = fmin(weight[0], fmin(weight[1], weight[2]));
+
+	return least >= -NONE * most;
+}
+
+enum spec_status
+spec_sun_solve(const struct spec_sun *sun, const double rgb[3],
+	struct spec_gaussians *gaussians, struct spec_error *error)
+{
+	enum spec_status status;
+	double m[9];
+
+	*gaussians = (struct spec_gaussians){.width_nm = SPEC_SUN_WIDEST_NM};
+	for (int i = 0; i < 3; i++)
+		if (!(rgb[i] >= 0 && isfinite(rgb[i])))
+			return spec_error_set(error, SPEC_ERANGE,
+				"a component of a colour is %g, not finite and >= 0",
+				rgb[i]);
+	gaussians->width_nm = spec_sun_width(sun, rgb);
+	for (;;) {
+		status = spec_sun_matrix(sun, gaussians->width_nm, m, error);
+		if (status != SPEC_OK)
+			return status;
+		spec_matrix_apply(m, rgb, gaussians->weight);
+		if (gaussians->width_nm <= SPEC_SUN_NARROWEST_NM ||
+			spec_sun_is_met(gaussians->weight))
+			break;
+		gaussians->width_nm =
+			fmax(gaussians->width_nm * SPEC_SUN_STEP, SPEC_SUN_NARROWEST_NM);
+	}
+	for (int i = 0; i < 3; i++)
+		gaussians->weight[i] = fmax(gaussians->weight[i], 0);
+	return SPEC_OK;
+}
+
+void
+spec_gaussians_sample(const struct spec_gaussians *gaussians, const double *wavelength_nm,
+	size_t count, double *value)
+{
+	for (size_t k = 0; k < count; k++) {
+		value[k] = 0;
+		for (int i = 0; i < 3; i++)
+			value[k] +=
+				gaussians->weight[i] *
+				spec_sun_gaussian(i, gaussians->width_nm, wavelength_nm[k]);
+	}
+}
+
+void
+spec_gaussians_mean(const struct spec_gaussians *gaussians, const double *edges_nm,
+	size_t bins, double *value)
+{
+	for (size_t k = 0; k < bins; k++) {
+		value[k] = 0;
+		for (int i = 0; i < 3; i++)
+			value[k] += gaussians->weight[i] *
+				    spec_sun_gaussian_mean(i, gaussians->width_nm,
+					    edges_nm[k], edges_nm[k + 1]);
+	}
+}
