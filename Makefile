@@ -45,6 +45,7 @@ LIBOBJECTS = $(LIBSOURCES:%.c=$(BUILD)/obj/%.o)
 LIBRARY = $(BUILD)/libspectools.a
 PLUGIN = $(BUILD)/lib/spectools/pictures.so
 DATA = $(BUILD)/share/spectools/spectra
+TABLE = $(BUILD)/share/spectools/upsampling/srgb.sigmoids
 PROGRAMS = $(TOOLS:%=$(BUILD)/bin/%)
 UNITTESTS = $(UNITS:%=$(BUILD)/tests/%)
 BENCHMARKS = $(BENCHES:%=$(BUILD)/tests/bench-%)
@@ -77,7 +78,7 @@ ifneq ($(filter clean,$(MAKECMDGOALS)),)
 .NOTPARALLEL:
 endif
 
-all: $(PROGRAMS) $(PLUGIN) $(DATA)
+all: $(PROGRAMS) $(PLUGIN) $(DATA) $(TABLE)
 
 help:
 	@echo 'make deps       install what the build and the tests need (apt-get)'
@@ -137,6 +138,22 @@ $(DATA):
 	@mkdir -p $(@D)
 	ln -sfn $(CURDIR)/spectra $@
 
+# The table of spectra for RGB colours is made again when what makes it changes, not with
+# whatever else is in the library. Sanitizers take a minute for it, and seconds for half its side.
+TABLEPARTS = $(wildcard lib/colour/make/sigmoids.c $(foreach part,colour/sigmoids \
+	colour/upsample colour/difference colour/observer colour/space spectrum/sigmoid, \
+	lib/$(part).c lib/$(part).h)) spectra/cmf/cie1931.spd spectra/illuminants/D65.spd
+
+$(BUILD)/make/sigmoids: $(BUILD)/obj/lib/colour/make/sigmoids.o $(LIBRARY)
+	@mkdir -p $(@D)
+	$(SAY) link $@
+	$(LINK)
+
+$(TABLE): $(TABLEPARTS) $(BUILD)/flags | $(BUILD)/make/sigmoids $(DATA)
+	@mkdir -p $(@D)
+	$(SAY) fit $@
+	$(QUIET)SPECTRA_PATH= $(BUILD)/make/sigmoids $@ $(if $(SAN),32)
+
 # What traces rays alone needs Embree, which costs every other program's start.
 TRACERS = bin/specrender $(addprefix tests/,render material light sampler world)
 $(TRACERS:%=$(BUILD)/%): LDLIBS += -lembree3
@@ -168,7 +185,7 @@ $(TESTHELPERS): $(BUILD)/tests/%: $(BUILD)/obj/tests/helper/%.o $(LIBRARY)
 check: all $(UNITTESTS) $(TESTHELPERS) $(BUILD)/tests/faults.so
 	@tests/check $(BUILD) unit rooms bats pages figures faults
 
-unit: $(UNITTESTS) $(PLUGIN) $(DATA)
+unit: $(UNITTESTS) $(PLUGIN) $(DATA) $(TABLE)
 	@tests/check $(BUILD) unit
 
 demo: all
@@ -185,7 +202,7 @@ figures: all $(FIGURES)
 # Looking at the source; each step stands alone, and lint is all of them.
 
 LINTS = lint-format lint-cppcheck lint-tidy lint-shell lint-man
-CODE = $(wildcard cmd/*.c lib/*/*.[ch] lib/*/*.cpp tests/*/*.[ch])
+CODE = $(wildcard cmd/*.c lib/*/*.[ch] lib/*/*/*.c lib/*/*.cpp tests/*/*.[ch])
 SCRIPTS = $(shell grep -slE '^\#!.*(bash|bats)' .ci/* tests/* tests/*/*) $(wildcard tests/*/*.bash tests/figures/*.sh)
 
 lint: $(LINTS)
@@ -213,7 +230,8 @@ lint-man: | $(READY)
 
 # Installing. Below build/ everything but the pages already lies as it will be installed.
 
-FILES = $(TOOLS:%=bin/%) lib/spectools/pictures.so $(SPECTRA:%=share/spectools/%)
+FILES = $(TOOLS:%=bin/%) lib/spectools/pictures.so $(SPECTRA:%=share/spectools/%) \
+	$(TABLE:$(BUILD)/%=%)
 MANUAL = $(foreach page,$(PAGES),share/man/man$(subst .,,$(suffix $(page)))/$(notdir $(page)))
 TO = $(DESTDIR)$(PREFIX)
 

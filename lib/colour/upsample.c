@@ -214,28 +214,50 @@ inverse_sigmoid(double value)
 	return (value - .5) / sqrt(value * (1 - value));
 }
 
-/* XYZ of the spectrum with coefficients c, and its slopes, laid out as a state's. */
-static void
-project(const struct fit *fit, const double c[3], double xyz[3], double slope[9])
+/* Samples are added up side by side, and these sums at the end. */
+#define LANES 8
+#define SUMS 12 /* XYZ, then its slopes, laid out as a state's */
+
+/* Adds samples i to i + lanes - 1. */
+static inline void
+add_samples(const struct fit *fit, const double c[3], size_t i, size_t lanes,
+	double sum[SUMS][LANES])
 {
 	const struct spec_upsampler *up = fit->upsampler;
 
-	memset(xyz, 0, 3 * sizeof *xyz);
-	memset(slope, 0, 9 * sizeof *slope);
-	for (size_t i = 0; i < up->count; i++) {
-		double t = (up->wavelength_nm[i] - fit->middle_nm) / fit->half_nm;
+	for (size_t k = 0; k < lanes; k++) {
+		double t = (up->wavelength_nm[i + k] - fit->middle_nm) / fit->half_nm;
 		double x = (c[0] * t + c[1]) * t + c[2], square = 1 + x * x;
 		double value = spec_sigmoid_of(x), rise = .5 / (square * sqrt(square));
 
 		for (int r = 0; r < 3; r++) {
-			double weight = up->weight[(size_t)r * up->count + i];
+			double weight = up->weight[(size_t)r * up->count + i + k];
 			double slope_2 = weight * rise, slope_1 = slope_2 * t;
 
-			xyz[r] += weight * value;
-			slope[3 * r] += slope_1 * t;
-			slope[3 * r + 1] += slope_1;
-			slope[3 * r + 2] += slope_2;
+			sum[r][k] += weight * value;
+			sum[3 + 3 * r][k] += slope_1 * t;
+			sum[3 + 3 * r + 1][k] += slope_1;
+			sum[3 + 3 * r + 2][k] += slope_2;
 		}
+	}
+}
+
+/* XYZ of the spectrum with coefficients c, and its slopes, laid out as a state's. */
+SPEC_VECTORISED static void
+project(const struct fit *fit, const double c[3], double xyz[3], double slope[9])
+{
+	double sum[SUMS][LANES] = {{0}};
+	size_t count = fit->upsampler->count, i = 0;
+
+	for (; i + LANES <= count; i += LANES)
+		add_samples(fit, c, i, LANES, sum);
+	add_samples(fit, c, i, count - i, sum);
+	for (int j = 0; j < SUMS; j++) {
+		double *to = j < 3 ? &xyz[j] : &slope[j - 3];
+
+		*to = 0;
+		for (int k = 0; k < LANES; k++)
+			*to += sum[j][k];
 	}
 }
 
@@ -340,23 +362,38 @@ set_polynomial(const struct fit *fit, const double c[3], struct spec_sigmoid *si
 	sigmoid->c2 = (a * middle - b) * middle + c[2];
 }
 
-/* The spectrum of a colour in [0, 1] that is not grey. */
+/* The polynomial of a spectrum, of t in [-1, 1]. */
+static void
+get_polynomial(const struct fit *fit, const struct spec_sigmoid *sigmoid, double c[3])
+{
+	double a = sigmoid->c0_per_nm2, b = sigmoid->c1_per_nm, middle = fit->middle_nm;
+
+	c[0] = a * fit->half_nm * fit->half_nm;
+	c[1] = (b + 2 * a * middle) * fit->half_nm;
+	c[2] = (a * middle + b) * middle + sigmoid->c2;
+}
+
+/* The spectrum of a colour in [0, 1] that is not grey; start: null, or one near it. */
 static void
 fit_colour(const struct spec_upsampler *upsampler, const double rgb[3],
-	struct spec_sigmoid *sigmoid)
+	const struct spec_sigmoid *start, struct spec_sigmoid *sigmoid)
 {
 	double first_nm = upsampler->wavelength_nm[0];
 	double last_nm = upsampler->wavelength_nm[upsampler->count - 1];
 	struct fit fit = {
 		upsampler, .5 * (first_nm + last_nm), .5 * (last_nm - first_nm), {0}, 0};
 	struct state state = {0};
-	double xyz[3];
+	double xyz[3], level;
 
 	spec_matrix_apply(upsampler->to_xyz, rgb, xyz);
 	spec_lab_from_xyz(xyz, upsampler->white, fit.goal);
 	/* A colour's Y is some mean of its components: never 0 or 1, but for rounding. */
-	state.c[2] = inverse_sigmoid(fmin(fmax(xyz[1], 1e-16), 1 - 1e-16));
-	fit.limit = MOST_COEFFICIENT * (1 + fabs(state.c[2]));
+	level = inverse_sigmoid(fmin(fmax(xyz[1], 1e-16), 1 - 1e-16));
+	fit.limit = MOST_COEFFICIENT * (1 + fabs(level));
+	if (start)
+		get_polynomial(&fit, start, state.c);
+	else
+		state.c[2] = level;
 	descend(&fit, &state);
 	set_polynomial(&fit, state.c, sigmoid);
 }
@@ -376,8 +413,9 @@ check_rgb(const double rgb[3], double most, struct spec_error *error)
 }
 
 enum spec_status
-spec_upsample_albedo(const struct spec_upsampler *upsampler, const double rgb[3],
-	struct spec_sigmoid *sigmoid, struct spec_error *error)
+spec_upsample_albedo_from(const struct spec_upsampler *upsampler, const double rgb[3],
+	const struct spec_sigmoid *start, struct spec_sigmoid *sigmoid,
+	struct spec_error *error)
 {
 	enum spec_status status = check_rgb(rgb, 1, error);
 
@@ -387,8 +425,15 @@ spec_upsample_albedo(const struct spec_upsampler *upsampler, const double rgb[3]
 	if (rgb[0] == rgb[1] && rgb[1] == rgb[2])
 		sigmoid->c2 = inverse_sigmoid(rgb[0]);
 	else
-		fit_colour(upsampler, rgb, sigmoid);
+		fit_colour(upsampler, rgb, start, sigmoid);
 	return SPEC_OK;
+}
+
+enum spec_status
+spec_upsample_albedo(const struct spec_upsampler *upsampler, const double rgb[3],
+	struct spec_sigmoid *sigmoid, struct spec_error *error)
+{
+	return spec_upsample_albedo_from(upsampler, rgb, NULL, sigmoid, error);
 }
 
 enum spec_status

@@ -68,6 +68,14 @@ enum spec_status spec_upsample_albedo(const struct spec_upsampler *upsampler,
 	const double rgb[3], struct spec_sigmoid *sigmoid, struct spec_error *error);
 
 /*
+ * The same, the fit begun at the spectrum of a colour near this one, which saves steps.
+ * start: null, or finite and not sigmoid itself.
+ */
+enum spec_status spec_upsample_albedo_from(const struct spec_upsampler *upsampler,
+	const double rgb[3], const struct spec_sigmoid *start, struct spec_sigmoid *sigmoid,
+	struct spec_error *error);
+
+/*
  * A colour of any brightness, such as a light's or a coefficient's: with m the largest
  * component, scale is 2 m and the sigmoid that of rgb / 2 m, so that it stays smooth.
  * Given: rgb, linear, finite, >= 0; black has scale 0. Error: SPEC_ERANGE.
