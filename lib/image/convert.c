@@ -7,6 +7,7 @@
 
 #include "base/memory.h"
 #include "base/vector.h"
+#include "image/samples.h"
 #include "image/save.h"
 
 #define RUN 256 /* pixels summed at a time */
@@ -195,6 +196,18 @@ set_attributes(struct spec_convert *convert, const struct spec_convert_setup *se
 		!spec_image_attribute(image, "emissiveUnits"))
 		status = spec_image_set_text(image, "emissiveUnits", "W.m^-2.sr^-1", error);
 	return status;
+}
+
+/* A pixel of N x N has as many times the samples. */
+static enum spec_status
+count_samples(struct spec_convert *convert, const char *name, struct spec_error *error)
+{
+	long long n = convert->downsample, samples;
+	enum spec_status status = spec_samples_get(&convert->image, &samples, name, error);
+
+	return status == SPEC_OK
+		       ? spec_samples_set(&convert->image, samples * n * n, name, error)
+		       : status;
 }
 
 /* What all curves together multiply the light at a wavelength by. */
@@ -415,6 +428,8 @@ spec_convert_plan(struct spec_convert *convert, const struct spec_image *input,
 		status = spec_image_index(&convert->image, name, error);
 	if (status == SPEC_OK && input->bands > 0)
 		status = set_attributes(convert, setup, error);
+	if (status == SPEC_OK && setup->downsample > 1)
+		status = count_samples(convert, name, error);
 	if (status == SPEC_OK)
 		status = plan_terms(convert, setup, name, error);
 	spec_grid_free(&found);

@@ -9,6 +9,7 @@
 #include "base/memory.h"
 #include "base/vector.h"
 #include "image/names.h"
+#include "image/samples.h"
 #include "image/save.h"
 #include "render/sums.h"
 
@@ -227,6 +228,9 @@ make_header(struct spec_render *render, struct spec_error *error)
 	if (status == SPEC_OK)
 		status = spec_image_set_text(
 			image, "spec:quantity", "radiance per nm", error);
+	if (status == SPEC_OK)
+		status = spec_samples_set(
+			image, render->setup.samples, "the rendered image", error);
 	if (status == SPEC_OK)
 		status = add_bands(render, "", error);
 	if (status == SPEC_OK)
