@@ -9,6 +9,7 @@
 #define BLOCK_BYTES                                                                        \
 	(1 << 20)      /* small enough for the cache, large enough to be worth a turn */
 #define MOST_CHUNKS 4  /* in a block, to make whole lines of the output */
+#define MOST_LINES 256 /* in a block, to hold whole chunks of every input */
 #define BLOCK_COPIES 4 /* packed, unpacked, scratch, and the output's */
 
 struct run {
@@ -32,11 +33,34 @@ at_most(long long a, long long b)
 static long long
 common_multiple(long long a, long long b)
 {
-	long long multiple = a;
+	long long divisor = a, rest = b;
 
-	while (multiple % b != 0) /* both are small: lines of a chunk, of a pixel */
-		multiple += a;
-	return multiple;
+	while (rest != 0) { /* Euclid */
+		long long next = divisor % rest;
+
+		divisor = rest;
+		rest = next;
+	}
+	return a / divisor * b;
+}
+
+/*
+ * Lines that hold whole chunks of every input; where heights of tiles go badly into each
+ * other, of the largest alone.
+ */
+static long long
+common_chunk(const struct spec_stream *stream)
+{
+	long long chunk = 1, largest = 1;
+
+	for (int i = 0; i < stream->readers; i++) {
+		int lines = spec_reader_chunk_lines(stream->reader[i]);
+
+		largest = lines > largest ? lines : largest;
+		if (chunk <= MOST_LINES)
+			chunk = common_multiple(chunk, lines);
+	}
+	return chunk <= MOST_LINES ? chunk : largest;
 }
 
 /*
@@ -47,15 +71,13 @@ common_multiple(long long a, long long b)
 static int
 choose_block(const struct spec_stream *stream)
 {
-	long long chunk = 1, lines;
+	long long chunk = common_chunk(stream), lines;
 	size_t bytes = 1;
 
 	if (stream->readers == 0)
 		return at_most(spec_writer_chunk_lines(stream->writer), stream->lines);
-	for (int i = 0; i < stream->readers; i++) {
-		chunk = common_multiple(chunk, spec_reader_chunk_lines(stream->reader[i]));
+	for (int i = 0; i < stream->readers; i++)
 		bytes += spec_reader_line_bytes(stream->reader[i]);
-	}
 	lines = common_multiple(chunk, stream->lines_in);
 	if (lines > MOST_CHUNKS * chunk)
 		lines = chunk > stream->lines_in ? MOST_CHUNKS * chunk : stream->lines_in;

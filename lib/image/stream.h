@@ -11,7 +11,7 @@
 #include "image/reader.h"
 #include "image/writer.h"
 
-#define SPEC_STREAM_READERS 2
+#define SPEC_STREAM_READERS 65 /* 64 images and a mask */
 
 /* What the kernel sees of a worker. */
 struct spec_stream_worker {
