@@ -35,7 +35,7 @@
 #include "base/error.h"
 #include "compare/function.h"
 
-#define SPEC_EXPRESSION_MOST_NODES 1024
+#define SPEC_EXPRESSION_MOST_NODES 4096
 #define SPEC_EXPRESSION_DEEPEST 100 /* parentheses and the like in each other */
 
 enum spec_node_kind {

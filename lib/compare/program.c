@@ -533,6 +533,17 @@ narrow(float *restrict to, const double *restrict from, size_t count)
 }
 
 SPEC_VECTORISED static void
+narrow_whole(float *restrict to, const double *restrict from, size_t count)
+{
+	for (size_t i = 0; i < count; i++) {
+		uint32_t whole =
+			from[i] > 0 && from[i] <= UINT32_MAX ? (uint32_t)from[i] : 0;
+
+		memcpy(&to[i], &whole, sizeof whole);
+	}
+}
+
+SPEC_VECTORISED static void
 fill(double *restrict to, double value, double slope, size_t count)
 {
 	for (size_t i = 0; i < count; i++)
@@ -593,6 +604,9 @@ spec_program_run(const struct spec_program *program, const float *const *row, si
 			    SPEC_FUNCTION_LANES;
 		for (size_t i = program->fixed; i < program->instructions; i++)
 			execute(&program->instruction[i], &run);
-		narrow(to + run.x, run.space[program->result], run.count);
+		if (program->whole)
+			narrow_whole(to + run.x, run.space[program->result], run.count);
+		else
+			narrow(to + run.x, run.space[program->result], run.count);
 	}
 }

@@ -39,6 +39,7 @@ struct spec_program {
 	struct spec_instruction *instruction;
 	size_t instructions, fixed; /* the first of them, once for the whole row */
 	size_t registers, result;   /* the register of the value */
+	int whole; /* stored as the 32 bits of whole numbers; the caller sets it */
 };
 
 /*

@@ -413,7 +413,7 @@ test_limits(void **state)
 	strcpy(text, "b*0");
 	for (size_t i = 0; i < (MOST - 3) / 2; i++)
 		strcat(text, "+x*1"); /* two calls and a number: too many */
-	refused(text, "more than 1024 parts", 0);
+	refused(text, "more than 4096 parts", 0);
 	strcpy(text, "b");
 	for (size_t i = 0; i < MOST - 2; i++)
 		strcat(text, "-a");
