@@ -21,6 +21,7 @@ static const struct cli_option options[] = {
 	{'m', "mask", "CHANNEL|FILE",
 		"of lerp: where it is 1 the second image shows\n"
 		"CHANNEL, CHANNEL=N, FILE, FILE:CHANNEL, FILE:CHANNEL=N"},
+	{0, "alpha", "CHANNEL", "of over (default: A)"},
 	{'w', "weight", "W,W,...", "of mean and --merge: a number for each image"},
 	{0, "kind", "S0|T", "of --expr: light or reflectance (default: as the first)"},
 	{0},
@@ -118,6 +119,10 @@ take_option(struct job *job, const char *name, const char *value, struct spec_er
 		return take_weights(job, value, error);
 	if (strcmp(name, "kind") == 0)
 		return take_kind(job, value, error);
+	if (strcmp(name, "alpha") == 0) {
+		job->setup.alpha = value;
+		return SPEC_OK;
+	}
 	if (strcmp(name, "mask") != 0)
 		return spec_settings_take(&job->settings, name, value, &known, error);
 	job->mask_text = value;
@@ -138,6 +143,8 @@ check_options(const struct cli *cli, const struct job *job)
 	if ((job->mask_text != NULL) != (operation == SPEC_OPERATION_LERP))
 		cli_usage(cli, job->mask_text ? "--mask is for --op lerp"
 					      : "--op lerp needs a --mask");
+	if (job->setup.alpha && operation != SPEC_OPERATION_OVER)
+		cli_usage(cli, "--alpha is for --op over");
 	if (job->weights > 0 && operation != SPEC_OPERATION_MEAN &&
 		operation != SPEC_OPERATION_MERGE)
 		cli_usage(cli, "--weight is for --op mean and --merge");

@@ -1,6 +1,7 @@
 /* Whether images go together in an operation. */
 #include <string.h>
 
+#include "compare/formula.h"
 #include "compare/planning.h"
 
 static enum spec_status
@@ -116,14 +117,22 @@ check_images(const struct spec_plan *plan)
 static enum spec_status
 check_alpha(const struct spec_plan *plan)
 {
+	const char *name = spec_formula_alpha(plan->setup);
+
 	if (plan->setup->operation != SPEC_OPERATION_OVER)
 		return SPEC_OK;
 	for (size_t i = 0; i + 1 < plan->operands; i++) {
-		if (spec_image_find_channel(plan->image[i], "A") ==
-			plan->image[i]->channels)
+		const struct spec_image *image = plan->image[i];
+		size_t channel = spec_image_find_channel(image, name);
+
+		if (channel == image->channels)
 			return spec_error_set(plan->error, SPEC_EUSAGE,
-				"%s has no alpha (A), so %s could not be seen behind it",
-				plan->name[i], plan->name[i + 1]);
+				"%s has no alpha (%s), so %s could not be seen behind it",
+				plan->name[i], name, plan->name[i + 1]);
+		if (image->channel[channel].role != SPEC_ROLE_OTHER ||
+			image->channel[channel].sample == SPEC_SAMPLE_UINT)
+			return spec_error_set(plan->error, SPEC_EUSAGE,
+				"%s: its channel '%s' is no alpha", plan->name[i], name);
 	}
 	return SPEC_OK;
 }

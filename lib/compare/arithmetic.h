@@ -39,6 +39,7 @@ struct spec_arithmetic_setup {
 	enum spec_operation operation;
 	const char *expression;       /* of EXPRESSION */
 	const struct spec_mask *mask; /* of LERP; settled */
+	const char *alpha;            /* the channel of OVER; null: A */
 	const double *weight;         /* of MEAN and MERGE, one for each image; or null */
 	enum spec_role kind; /* of EXPRESSION's result; OTHER: that of the first image */
 	int half;            /* bands are stored as HALF */

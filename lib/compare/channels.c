@@ -128,14 +128,15 @@ add_foreign(const struct spec_plan *plan, const size_t *at, const char *name)
 static enum spec_status
 add_alpha(const struct spec_plan *plan)
 {
+	const char *name = spec_formula_alpha(plan->setup);
 	size_t at[SPEC_ARITHMETIC_MOST + 1];
 
 	for (size_t i = 0; i < plan->images; i++) {
-		at[i] = spec_image_find_channel(plan->image[i], "A");
+		at[i] = spec_image_find_channel(plan->image[i], name);
 		if (at[i] == plan->image[i]->channels)
 			at[i] = SPEC_PROGRAM_ONES;
 	}
-	return add_foreign(plan, at, "A");
+	return add_foreign(plan, at, name);
 }
 
 /* The bands of a layer: film i's, lamp i's, or where neither is asked for what passes. */

@@ -6,6 +6,12 @@
 #include "base/memory.h"
 #include "base/text.h"
 
+const char *
+spec_formula_alpha(const struct spec_arithmetic_setup *setup)
+{
+	return setup->operation == SPEC_OPERATION_OVER && setup->alpha ? setup->alpha : "A";
+}
+
 static void
 write_chain(FILE *to, const char *sign, size_t images)
 {
@@ -28,22 +34,33 @@ write_mean(FILE *to, const double *weight, size_t images)
 	fprintf(to, ")/%.17g", sum);
 }
 
+/* "image2.("NAME")" */
 static void
-write_over(FILE *to, size_t images)
+write_channel(FILE *to, size_t image, const char *name)
+{
+	fprintf(to, "image%zu.(\"", image);
+	for (const char *byte = name; *byte; byte++)
+		fprintf(to, "%s%c", *byte == '"' || *byte == '\\' ? "\\" : "", *byte);
+	fputs("\")", to);
+}
+
+static void
+write_over(FILE *to, const char *alpha, size_t images)
 {
 	fprintf(to, "r=image%zu;", images);
-	for (size_t i = images - 1; i > 0; i--)
-		fprintf(to, "r=image%zu+mix(r,0,image%zu.A);", i, i);
+	for (size_t i = images - 1; i > 0; i--) {
+		fprintf(to, "r=image%zu+mix(r,0,", i);
+		write_channel(to, i, alpha);
+		fputs(");", to);
+	}
 	fputs("r", to);
 }
 
 static void
 write_lerp(FILE *to, const struct spec_mask *mask, size_t images)
 {
-	fprintf(to, "mix(image1,image2,image%zu.(\"", mask->path ? images + 1 : 1);
-	for (const char *byte = mask->channel; *byte; byte++)
-		fprintf(to, "%s%c", *byte == '"' || *byte == '\\' ? "\\" : "", *byte);
-	fputs("\")", to);
+	fputs("mix(image1,image2,", to);
+	write_channel(to, mask->path ? images + 1 : 1, mask->channel);
 	if (mask->equals)
 		fprintf(to, "==%lu", (unsigned long)mask->number);
 	fputs(")", to);
@@ -77,7 +94,7 @@ write_formula(FILE *to, const struct spec_arithmetic_setup *setup, const double 
 		write_mean(to, weight, images);
 		break;
 	case SPEC_OPERATION_OVER:
-		write_over(to, images);
+		write_over(to, spec_formula_alpha(setup), images);
 		break;
 	case SPEC_OPERATION_LERP:
 		write_lerp(to, setup->mask, images);

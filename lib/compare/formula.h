@@ -14,12 +14,16 @@
  *   min, max           min(a, b, c ...)
  *   mean               (a + b + c ...) / n
  *   merge              (wa a + wb b + wc c ...) / (wa + wb + wc ...)
- *   over               a + (1 - a.A) (b + (1 - b.A) (c ...)); what is behind an alpha of 1
+ *   over               a + (1 - a.A) (b + (1 - b.A) (c ...)), A being the channel of alpha; what
+ *                      is behind an alpha of 1
  *                      plays no part
  *   lerp               (1 - m) a + m b, as mix has it
  */
 enum spec_status spec_formula_write(const struct spec_arithmetic_setup *setup,
 	const double *weight, size_t images, char **text, struct spec_error *error);
+
+/* The channel that is alpha. */
+const char *spec_formula_alpha(const struct spec_arithmetic_setup *setup);
 
 /*
  * The mean of a geometry channel of specexr(5), weighted by cover and weight, newly allocated;

@@ -88,8 +88,7 @@ settle_result(struct spec_plan *plan)
 		if (kind == SPEC_ROLE_OTHER || kind == plan->role)
 			return SPEC_OK;
 		plan->role = kind;
-		plan->quantity =
-			kind == SPEC_ROLE_EMISSIVE ? "radiance per nm" : "ratio";
+		plan->quantity = kind == SPEC_ROLE_EMISSIVE ? "radiance per nm" : "ratio";
 		/* Light of an expression is as the first light in it. */
 		for (size_t i = plan->operands; i-- > 0;) {
 			if (plan->image[i]->role != kind || kind != SPEC_ROLE_EMISSIVE)

@@ -178,6 +178,20 @@ END
   [[ $stderr = *'c.exr has no alpha (A), so a.exr could not be seen behind it' ]] || complain "$stderr"
 }
 
+@test "--alpha names another channel for --op over" {
+  constant a.exr 0.25 --extra A --extra Z --uint id
+  constant b.exr 0.5 --extra Z
+  combine --op over --alpha Z a.exr b.exr -o x.exr
+  pixel_holds a.exr x.exr 15,7 '
+    is("S0.400,000000nm", 0.25 + 0.75 * 0.5)
+    is("Z", 0.25 + 0.75 * 0.5)
+    is("A", 0.25)'
+  for alpha in id S0.400,000000nm missing; do
+    fails_cleanly speccomp --op over --alpha $alpha a.exr b.exr -o y.exr
+  done
+  fails_cleanly speccomp --op lerp --mask Z --alpha Z a.exr b.exr -o y.exr
+}
+
 @test "--op over holds for every Stokes component" {
   constant a.exr 0.25 --kind stokes --extra A
   constant b.exr 0.5 --kind stokes
