@@ -1,19 +1,20 @@
 # make fuzz: every target under libFuzzer, ASan and UBSan, FUZZ_SECONDS in all, of which
-# the reader gets seven tenths. What is found lies in $(BUILD)/fuzz/found, and the corpus
+# the reader gets two thirds. What is found lies in $(BUILD)/fuzz/found, and the corpus
 # stays in $(BUILD)/fuzz/corpus for the next time. Needs clang (Debian: clang
 # libclang-rt-14-dev); one target alone: make fuzz FUZZERS=reader.
 
 FUZZCC = clang
 FUZZ_SECONDS = 600
-FUZZERS = reader spd names recipe scene
+FUZZERS = reader spd names recipe expression scene
 # clang 14 does not know the name of F16C.
 FUZZFLAGS = -std=c11 -g -O1 -Wall -Wextra -fno-omit-frame-pointer -pthread \
 	-fsanitize=address,undefined -fno-sanitize-recover=all \
 	'-D__builtin_cpu_supports(name)=1'
-FUZZSHARE_reader = 70
+FUZZSHARE_reader = 65
 FUZZSHARE_spd = 10
 FUZZSHARE_names = 5
 FUZZSHARE_recipe = 5
+FUZZSHARE_expression = 5
 FUZZSHARE_scene = 10
 
 FUZZOBJECTS = $(LIBSOURCES:%.c=$(BUILD)/fuzz/obj/%.o)
