@@ -97,7 +97,7 @@ END
 
 @test "values that are none are refused" {
   ramps
-  for option in --op= --op=Add --op=merge --kind=S1 --kind= --weight= --weight=1 --weight=1, --weight=,1 --weight=0,1 \
+  for option in --op= --op=Add --op=merge --kind=S1 --kind= --weight= --weight=1 '--weight=1,' --weight=,1 --weight=0,1 \
     --weight=-1,1 --weight=1,x --weight=nan,1 --threads=0 --compression=dwaa --limit=x=1; do
     fails_cleanly speccomp "$option" --op mean a.exr b.exr -o x.exr
   done
