@@ -1,6 +1,8 @@
 #include "render/sampler.h"
 
-static uint64_t
+#include "base/vector.h"
+
+static inline uint64_t
 mix(uint64_t z)
 {
 	/* splitmix64's finisher (Steele, Lea & Flood 2014) */
@@ -9,23 +11,18 @@ mix(uint64_t z)
 	return z ^ (z >> 31);
 }
 
-static uint64_t
-reverse_long(uint64_t x)
-{
-	x = __builtin_bswap64(x);
-	x = (x & 0x0f0f0f0f0f0f0f0f) << 4 | (x >> 4 & 0x0f0f0f0f0f0f0f0f);
-	x = (x & 0x3333333333333333) << 2 | (x >> 2 & 0x3333333333333333);
-	return (x & 0x5555555555555555) << 1 | (x >> 1 & 0x5555555555555555);
-}
-
-static uint32_t
+static inline uint32_t
 reverse(uint32_t x)
 {
-	return (uint32_t)(reverse_long(x) >> 32);
+	x = x << 16 | x >> 16;
+	x = (x & 0x00ff00ff) << 8 | (x >> 8 & 0x00ff00ff);
+	x = (x & 0x0f0f0f0f) << 4 | (x >> 4 & 0x0f0f0f0f);
+	x = (x & 0x33333333) << 2 | (x >> 2 & 0x33333333);
+	return (x & 0x55555555) << 1 | (x >> 1 & 0x55555555);
 }
 
 /* Burley's listing 1 with Vegdahl's constants (2021): each bit depends on those above it. */
-static uint32_t
+static inline uint32_t
 scramble_reversed(uint32_t x, uint32_t seed)
 {
 	x ^= x * 0x3d20adea;
@@ -37,7 +34,7 @@ scramble_reversed(uint32_t x, uint32_t seed)
 }
 
 /* Sobol's second dimension, reversed, from an index: Pascal's triangle modulo 2, by halves. */
-static uint32_t
+static inline uint32_t
 second_reversed(uint32_t index)
 {
 	index ^= index >> 16;
@@ -58,25 +55,27 @@ spec_sampler_start(
 	sampler->dimension = 0;
 }
 
-void
-spec_sampler_pair(struct spec_sampler *sampler, double pair[2])
+SPEC_VECTORISED void
+spec_sampler_fill(struct spec_sampler *sampler)
 {
-	uint64_t hash = mix(sampler->seed + 0x9e3779b97f4a7c15 * ++sampler->dimension);
-	uint64_t other = mix(hash ^ 0xd1b54a32d192ed03);
-	uint32_t index = reverse(scramble_reversed(sampler->reversed, (uint32_t)hash));
-	uint32_t first = scramble_reversed(index, (uint32_t)(hash >> 32));
-	uint32_t second = scramble_reversed(second_reversed(index), (uint32_t)other);
-	uint64_t both = reverse_long((uint64_t)first << 32 | second);
+	uint64_t seed = sampler->seed, dimension = sampler->dimension;
+	uint32_t reversed = sampler->reversed;
+	uint32_t order[SPEC_SAMPLER_AHEAD], first[SPEC_SAMPLER_AHEAD];
+	uint32_t second[SPEC_SAMPLER_AHEAD];
 
-	pair[0] = (uint32_t)both * 0x1p-32;
-	pair[1] = (uint32_t)(both >> 32) * 0x1p-32;
-}
+	for (unsigned i = 0; i < SPEC_SAMPLER_AHEAD; i++) {
+		uint64_t hash = mix(seed + 0x9e3779b97f4a7c15 * (dimension + i + 1));
 
-double
-spec_sampler_number(struct spec_sampler *sampler)
-{
-	uint64_t hash = mix(sampler->seed + 0x9e3779b97f4a7c15 * ++sampler->dimension);
-	uint32_t index = reverse(scramble_reversed(sampler->reversed, (uint32_t)hash));
+		order[i] = (uint32_t)hash;
+		first[i] = (uint32_t)(hash >> 32);
+		second[i] = (uint32_t)mix(hash ^ 0xd1b54a32d192ed03);
+	}
+	for (unsigned i = 0; i < SPEC_SAMPLER_AHEAD; i++) {
+		uint32_t index = reverse(scramble_reversed(reversed, order[i]));
 
-	return reverse(scramble_reversed(index, (uint32_t)(hash >> 32))) * 0x1p-32;
+		sampler->first[i] = reverse(scramble_reversed(index, first[i])) * 0x1p-32;
+		sampler->second[i] =
+			reverse(scramble_reversed(second_reversed(index), second[i])) *
+			0x1p-32;
+	}
 }

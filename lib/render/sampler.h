@@ -11,18 +11,42 @@
 
 #include <stdint.h>
 
+#define SPEC_SAMPLER_AHEAD 8 /* pairs that are made together, which is vector code */
+
 struct spec_sampler {
 	uint64_t seed;     /* of the pixel */
 	uint32_t reversed; /* the sample's number, its bits in reverse */
 	uint32_t dimension;
+	double first[SPEC_SAMPLER_AHEAD], second[SPEC_SAMPLER_AHEAD];
 };
 
 /* The sample's first numbers come next. */
 void spec_sampler_start(
 	struct spec_sampler *sampler, uint64_t seed, int x, int y, uint32_t sample);
 
+/* Makes the pairs from the next dimension on. */
+void spec_sampler_fill(struct spec_sampler *sampler);
+
 /* The next pair, and the next number, of the sample. */
-void spec_sampler_pair(struct spec_sampler *sampler, double pair[2]);
-double spec_sampler_number(struct spec_sampler *sampler);
+static inline void
+spec_sampler_pair(struct spec_sampler *sampler, double pair[2])
+{
+	uint32_t i = sampler->dimension % SPEC_SAMPLER_AHEAD;
+
+	if (i == 0)
+		spec_sampler_fill(sampler);
+	sampler->dimension++;
+	pair[0] = sampler->first[i];
+	pair[1] = sampler->second[i];
+}
+
+static inline double
+spec_sampler_number(struct spec_sampler *sampler)
+{
+	double pair[2];
+
+	spec_sampler_pair(sampler, pair);
+	return pair[0];
+}
 
 #endif
