@@ -205,26 +205,54 @@ scale_values(float *to, const float *from, float factor, size_t count)
 		to[i] = factor * from[i];
 }
 
-/* Malley: uniform on the disk, then up. Shirley & Chiu 1997 keep strata whole. */
+/*
+ * Sine and cosine for |x| <= pi / 4, to an ulp: the polynomials of fdlibm's k_sin.c and
+ * k_cos.c. There is no range to reduce, and no call.
+ */
+static double
+small_sine(double x)
+{
+	double z = x * x;
+	double high = 8.33333333332248946124e-03 +
+		      z * (-1.98412698298579493134e-04 +
+				  z * (2.75573137070700676789e-06 +
+					      z * (-2.50507602534068634195e-08 +
+							  z * 1.58969099521155010221e-10)));
+
+	return x + x * z * (-1.66666666666666324348e-01 + z * high);
+}
+
+static double
+small_cosine(double x)
+{
+	double z = x * x;
+	double high =
+		-1.38888888888741095749e-03 +
+		z * (2.48015872894767294178e-05 +
+			    z * (-2.75573143513906633035e-07 +
+					z * (2.08757232129817482790e-09 +
+						    z * -1.13596475577881948265e-11)));
+
+	return 1 - z * (0.5 - z * (4.16666666666666019037e-02 + z * high));
+}
+
+/*
+ * Malley: uniform on the disk, then up. Shirley & Chiu 1997 keep strata whole. Which of the
+ * two is longer is chance: an index does not make the processor guess.
+ */
 static struct spec_vector
 sample_cosine(const double pair[2])
 {
-	double a = 2 * pair[0] - 1, b = 2 * pair[1] - 1, radius, angle;
-	struct spec_vector direction;
+	double at[2] = {2 * pair[0] - 1, 2 * pair[1] - 1}, angle;
+	int longer = fabs(at[0]) <= fabs(at[1]);
+	double radius = at[longer];
 
-	if (a == 0 && b == 0)
+	if (radius == 0)
 		return (struct spec_vector){0, 0, 1};
-	if (fabs(a) > fabs(b)) {
-		radius = a;
-		angle = PI / 4 * (b / a);
-	} else {
-		radius = b;
-		angle = PI / 2 - PI / 4 * (a / b);
-	}
-	direction.x = radius * cos(angle);
-	direction.y = radius * sin(angle);
-	direction.z = sqrt(fmax(0, 1 - radius * radius));
-	return direction;
+	angle = PI / 4 * (at[!longer] / radius);
+	at[longer] = radius * small_cosine(angle);
+	at[!longer] = radius * small_sine(angle);
+	return (struct spec_vector){at[0], at[1], sqrt(1 - radius * radius)};
 }
 
 /* --- Trowbridge-Reitz (GGX), after Heitz, JCGT 3(2), 2014, and 7(4), 2018 --- */
