@@ -181,14 +181,14 @@ spec_material_is_rough(const struct spec_material *material)
 static struct spec_frame
 frame_of(const struct spec_surface *surface)
 {
-	struct spec_vector normal = surface->hit->shading;
-	struct spec_vector tangent = surface->hit->tangent;
+	struct spec_vector normal = surface->hit->shading, tangent;
 	struct spec_frame frame;
 
 	if (surface->cosine < 0)
 		normal = spec_vector_negate(normal);
 	if (surface->material->kind == SPEC_SCENE_DIFFUSE) /* any frame will do */
 		return spec_frame_about(normal);
+	tangent = surface->hit->tangent;
 	tangent = spec_vector_along(tangent, normal, -spec_vector_dot(tangent, normal));
 	if (!(spec_vector_dot(tangent, tangent) > 1e-12))
 		return spec_frame_about(normal);

@@ -195,6 +195,9 @@ spec_path_trace(const struct spec_tracer *tracer, const struct spec_ray *first, 
 			return;
 		surface.material =
 			&tracer->material[tracer->scene->shape[hit.shape].material];
+		/* A diffuse surface is the same all over and all around. */
+		if (surface.material->kind != SPEC_SCENE_DIFFUSE)
+			spec_world_describe(tracer->world, &hit);
 		surface.eye = spec_vector_negate(ray.direction);
 		surface.cosine = spec_vector_dot(surface.eye, hit.shading);
 		if (spec_material_is_rough(surface.material))

@@ -428,6 +428,15 @@ is_deferred_film(const struct spec_render *render, const struct spec_hit *hit,
 		       render->material[material].coating.clear_behind);
 }
 
+static int
+meet(const struct spec_world *world, const struct spec_ray *ray, struct spec_hit *hit)
+{
+	if (!spec_world_meet(world, ray, hit))
+		return 0;
+	spec_world_describe(world, hit);
+	return 1;
+}
+
 static void
 add_sample(struct desk *desk, const struct spec_ray *first, struct spec_sampler *sampler)
 {
@@ -441,7 +450,7 @@ add_sample(struct desk *desk, const struct spec_ray *first, struct spec_sampler 
 		add_radiance(desk, &ray, 0, 0, sampler, 0);
 		return;
 	}
-	met = spec_world_meet(render->world, &ray, &hit);
+	met = meet(render->world, &ray, &hit);
 	while (met && film < films && (int)film < render->tracer.max_depth &&
 		is_deferred_film(render, &hit, &ray)) {
 		struct spec_vector eye = spec_vector_negate(ray.direction);
@@ -458,7 +467,7 @@ add_sample(struct desk *desk, const struct spec_ray *first, struct spec_sampler 
 			return;
 		ray = spec_world_leave(render->world, &hit, ray.direction);
 		film++;
-		met = spec_world_meet(render->world, &ray, &hit);
+		met = meet(render->world, &ray, &hit);
 	}
 	if (film == 0)
 		add_plain(desk, &ray, met ? &hit : NULL, sampler);

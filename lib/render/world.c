@@ -343,42 +343,6 @@ embree_ray(const struct spec_ray *ray, double distance)
 		.mask = (unsigned)-1};
 }
 
-/* Spherical coordinates as pbrt has them: u around z from x, v from the pole at -z. */
-static void
-describe_sphere(const struct spec_scene_shape *shape, struct spec_vector p,
-	struct spec_hit *hit, struct spec_vector *normal, struct spec_vector *tangent)
-{
-	double r = shape->radius, azimuth = atan2(p.y, p.x), height = p.z / r;
-
-	p = spec_vector_scale(spec_vector_unit(p), r);
-	*normal = p;
-	*tangent = (struct spec_vector){-p.y, p.x, 0};
-	if (p.x == 0 && p.y == 0)
-		*tangent = (struct spec_vector){1, 0, 0};
-	hit->u = (azimuth < 0 ? azimuth + 2 * PI : azimuth) / (2 * PI);
-	hit->v = 1 - acos(fmin(fmax(height, -1), 1)) / PI;
-	hit->object = (struct spec_vector){
-		(p.x / r + 1) / 2, (p.y / r + 1) / 2, (p.z / r + 1) / 2};
-	hit->point = spec_through_point(shape->world.m, p);
-}
-
-static void
-describe_disk(const struct spec_scene_shape *shape, struct spec_vector p,
-	struct spec_hit *hit, struct spec_vector *normal, struct spec_vector *tangent)
-{
-	double r = shape->radius, distance = hypot(p.x, p.y), azimuth = atan2(p.y, p.x);
-
-	p.z = shape->height;
-	*normal = (struct spec_vector){0, 0, 1};
-	*tangent = (struct spec_vector){-p.y, p.x, 0};
-	if (distance == 0)
-		*tangent = (struct spec_vector){1, 0, 0};
-	hit->u = (azimuth < 0 ? azimuth + 2 * PI : azimuth) / (2 * PI);
-	hit->v = r > shape->inner_radius ? (r - distance) / (r - shape->inner_radius) : 0;
-	hit->object = (struct spec_vector){(p.x / r + 1) / 2, (p.y / r + 1) / 2, 0};
-	hit->point = spec_through_point(shape->world.m, p);
-}
-
 static double
 size_of(struct spec_vector v)
 {
@@ -386,33 +350,124 @@ size_of(struct spec_vector v)
 }
 
 static void
-describe_quadric(const struct spec_scene_shape *shape, const struct spec_ray *ray,
+find_on_quadric(const struct spec_scene_shape *shape, const struct spec_ray *ray,
 	struct spec_hit *hit)
 {
 	struct spec_vector at =
 		spec_vector_along(ray->origin, ray->direction, hit->distance);
-	struct spec_vector local = spec_through_point(shape->world.inverse, at), normal,
-			   tangent;
+	struct spec_vector local = spec_through_point(shape->world.inverse, at);
+	struct spec_vector normal = {0, 0, 1};
 
 	if (shape->kind == SPEC_SCENE_SPHERE)
-		describe_sphere(shape, local, hit, &normal, &tangent);
+		local = normal = spec_vector_scale(spec_vector_unit(local), shape->radius);
 	else
-		describe_disk(shape, local, hit, &normal, &tangent);
+		local.z = shape->height;
+	hit->point = spec_through_point(shape->world.m, local);
 	hit->normal = hit->shading = spec_through_normal(&shape->world, normal);
-	hit->tangent = spec_vector_unit(spec_through_direction(shape->world.m, tangent));
 	hit->size = size_of(hit->point) + fabs(shape->world.m[0][3]) +
 		    fabs(shape->world.m[1][3]) + fabs(shape->world.m[2][3]);
 }
 
 /* a (1 - u - v) + b u + c v */
 static struct spec_vector
-blend(const float *list, const uint32_t *corner, double u, double v)
+blend(const float *list, const uint32_t *corner, const double weight[2])
 {
 	return spec_vector_along(
-		spec_vector_along(
-			spec_vector_scale(spec_facets_vertex(list, corner[0]), 1 - u - v),
-			spec_facets_vertex(list, corner[1]), u),
-		spec_facets_vertex(list, corner[2]), v);
+		spec_vector_along(spec_vector_scale(spec_facets_vertex(list, corner[0]),
+					  1 - weight[0] - weight[1]),
+			spec_facets_vertex(list, corner[1]), weight[0]),
+		spec_facets_vertex(list, corner[2]), weight[1]);
+}
+
+static void
+find_on_mesh(const struct spec_scene_shape *shape, const struct spec_facets *facets,
+	const struct RTCHit *found, struct spec_hit *hit)
+{
+	const struct spec_vector *at = facets->corner + 3 * (size_t)found->primID;
+	double u = found->u, v = found->v;
+
+	hit->triangle = found->primID;
+	hit->weight[0] = u;
+	hit->weight[1] = v;
+	hit->point = spec_vector_along(
+		spec_vector_along(spec_vector_scale(at[0], 1 - u - v), at[1], u), at[2], v);
+	hit->size = size_of(hit->point) + size_of(spec_vector_subtract(at[1], at[0])) +
+		    size_of(spec_vector_subtract(at[2], at[0]));
+	hit->normal = hit->shading = facets->normal[found->primID];
+	if (shape->normal)
+		hit->shading = spec_through_normal(&shape->world,
+			blend(shape->normal, shape->index + 3 * hit->triangle,
+				hit->weight));
+}
+
+/* A shading normal that looks away where the surface does not is bent till it grazes. */
+static void
+straighten(struct spec_hit *hit, struct spec_vector direction)
+{
+	double side = spec_vector_dot(direction, hit->normal);
+	double seen = spec_vector_dot(direction, hit->shading);
+
+	if (side * seen >= 0)
+		return;
+	/* A little further than to the right angle, against rounding. */
+	hit->shading = spec_vector_unit(
+		spec_vector_along(hit->shading, direction, copysign(1e-6, side) - seen));
+}
+
+int
+spec_world_meet(
+	const struct spec_world *world, const struct spec_ray *ray, struct spec_hit *hit)
+{
+	struct RTCRayHit rayhit = {.ray = embree_ray(ray, INFINITY)};
+	struct journey journey;
+	const struct spec_scene_shape *shape;
+
+	set_out(&journey, ray);
+	rayhit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+	rtcIntersect1(world->tree, &journey.context, &rayhit);
+	if (rayhit.hit.geomID == RTC_INVALID_GEOMETRY_ID)
+		return 0;
+	hit->shape = rayhit.hit.geomID;
+	shape = &world->scene->shape[hit->shape];
+	hit->distance =
+		shape->kind == SPEC_SCENE_MESH ? (double)rayhit.ray.tfar : journey.distance;
+	if (shape->kind == SPEC_SCENE_MESH)
+		find_on_mesh(shape, &world->facets[hit->shape], &rayhit.hit, hit);
+	else
+		find_on_quadric(shape, ray, hit);
+	if (shape->reverse_orientation) {
+		hit->normal = spec_vector_negate(hit->normal);
+		hit->shading = spec_vector_negate(hit->shading);
+	}
+	if (shape->normal)
+		straighten(hit, ray->direction);
+	return 1;
+}
+
+/*
+ * Coordinates as pbrt has them. Of a sphere: u around z from x, v from the pole at -z; of a
+ * disk: v from the rim inwards.
+ */
+static void
+describe_quadric(const struct spec_scene_shape *shape, struct spec_hit *hit)
+{
+	struct spec_vector p = spec_through_point(shape->world.inverse, hit->point);
+	double r = shape->radius, azimuth = atan2(p.y, p.x), distance = hypot(p.x, p.y);
+	struct spec_vector tangent = {-p.y, p.x, 0};
+
+	if (distance == 0)
+		tangent = (struct spec_vector){1, 0, 0};
+	hit->tangent = spec_vector_unit(spec_through_direction(shape->world.m, tangent));
+	hit->u = (azimuth < 0 ? azimuth + 2 * PI : azimuth) / (2 * PI);
+	hit->object = (struct spec_vector){(p.x / r + 1) / 2, (p.y / r + 1) / 2, 0};
+	if (shape->kind == SPEC_SCENE_SPHERE) {
+		hit->v = 1 - acos(fmin(fmax(p.z / r, -1), 1)) / PI;
+		hit->object.z = (p.z / r + 1) / 2;
+	} else {
+		hit->v = r > shape->inner_radius
+				 ? (r - distance) / (r - shape->inner_radius)
+				 : 0;
+	}
 }
 
 /* dp/du from the vertices' uv, or any direction in the plane where they have none. */
@@ -456,26 +511,19 @@ place_in_box(const struct spec_facets *facets, struct spec_vector p)
 
 static void
 describe_mesh(const struct spec_scene_shape *shape, const struct spec_facets *facets,
-	const struct RTCHit *found, struct spec_hit *hit)
+	struct spec_hit *hit)
 {
-	const uint32_t *corner = shape->index + 3 * (size_t)found->primID;
-	const struct spec_vector *at = facets->corner + 3 * (size_t)found->primID;
-	double u = found->u, v = found->v;
+	const uint32_t *corner = shape->index + 3 * hit->triangle;
+	const struct spec_vector *at = facets->corner + 3 * hit->triangle;
+	double u = hit->weight[0], v = hit->weight[1];
 
-	hit->point = spec_vector_along(
-		spec_vector_along(spec_vector_scale(at[0], 1 - u - v), at[1], u), at[2], v);
-	hit->size = size_of(hit->point) + size_of(spec_vector_subtract(at[1], at[0])) +
-		    size_of(spec_vector_subtract(at[2], at[0]));
-	hit->normal = hit->shading = facets->normal[found->primID];
-	if (shape->normal)
-		hit->shading = spec_through_normal(
-			&shape->world, blend(shape->normal, corner, u, v));
-	hit->object = place_in_box(facets, blend(shape->point, corner, u, v));
+	hit->object = place_in_box(facets, blend(shape->point, corner, hit->weight));
 	/* Without uv pbrt takes (0,0), (1,0), (1,1). */
 	hit->u = u + v;
 	hit->v = v;
-	hit->tangent = shape->uv ? mesh_tangent(shape, corner, hit->normal)
-				 : spec_vector_unit(spec_vector_subtract(at[1], at[0]));
+	hit->tangent = shape->uv
+			       ? mesh_tangent(shape, corner, facets->normal[hit->triangle])
+			       : spec_vector_unit(spec_vector_subtract(at[1], at[0]));
 	if (shape->uv) {
 		hit->u = (1 - u - v) * shape->uv[2 * corner[0]] +
 			 u * shape->uv[2 * corner[1]] + v * shape->uv[2 * corner[2]];
@@ -485,49 +533,15 @@ describe_mesh(const struct spec_scene_shape *shape, const struct spec_facets *fa
 	}
 }
 
-/* A shading normal that looks away where the surface does not is bent till it grazes. */
-static void
-straighten(struct spec_hit *hit, struct spec_vector direction)
+void
+spec_world_describe(const struct spec_world *world, struct spec_hit *hit)
 {
-	double side = spec_vector_dot(direction, hit->normal);
-	double seen = spec_vector_dot(direction, hit->shading);
+	const struct spec_scene_shape *shape = &world->scene->shape[hit->shape];
 
-	if (side * seen >= 0)
-		return;
-	/* A little further than to the right angle, against rounding. */
-	hit->shading = spec_vector_unit(
-		spec_vector_along(hit->shading, direction, copysign(1e-6, side) - seen));
-}
-
-int
-spec_world_meet(
-	const struct spec_world *world, const struct spec_ray *ray, struct spec_hit *hit)
-{
-	struct RTCRayHit rayhit = {.ray = embree_ray(ray, INFINITY)};
-	struct journey journey;
-	const struct spec_scene_shape *shape;
-
-	set_out(&journey, ray);
-	rayhit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-	rtcIntersect1(world->tree, &journey.context, &rayhit);
-	if (rayhit.hit.geomID == RTC_INVALID_GEOMETRY_ID)
-		return 0;
-	hit->shape = rayhit.hit.geomID;
-	shape = &world->scene->shape[hit->shape];
-	hit->distance =
-		shape->kind == SPEC_SCENE_MESH ? (double)rayhit.ray.tfar : journey.distance;
-	hit->object = (struct spec_vector){0, 0, 0};
 	if (shape->kind == SPEC_SCENE_MESH)
-		describe_mesh(shape, &world->facets[hit->shape], &rayhit.hit, hit);
+		describe_mesh(shape, &world->facets[hit->shape], hit);
 	else
-		describe_quadric(shape, ray, hit);
-	if (shape->reverse_orientation) {
-		hit->normal = spec_vector_negate(hit->normal);
-		hit->shading = spec_vector_negate(hit->shading);
-	}
-	if (shape->normal)
-		straighten(hit, ray->direction);
-	return 1;
+		describe_quadric(shape, hit);
 }
 
 int

@@ -15,12 +15,15 @@ struct spec_ray {
 };
 
 struct spec_hit {
-	size_t shape;               /* its number in the scene */
+	size_t shape, triangle;     /* numbers in the scene, and in a mesh */
+	double weight[2];           /* of the triangle's second and third corner */
 	double distance;            /* [m] along the ray */
 	double size;                /* [m] of the numbers that gave the point: its ulps */
 	struct spec_vector point;   /* [m] world */
 	struct spec_vector normal;  /* geometric, outward, unit */
 	struct spec_vector shading; /* unit, on the geometric normal's side */
+
+	/* What spec_world_describe adds: */
 	struct spec_vector tangent; /* dp/du, unit */
 	struct spec_vector
 		object; /* 0 to 1 in the object's bounding box, 0 where it is flat */
@@ -34,9 +37,12 @@ enum spec_status spec_world_open(struct spec_world **world, const struct spec_sc
 	struct spec_error *error);
 void spec_world_close(struct spec_world *world);
 
-/* The first shape that a ray meets, into hit, and 1; or 0. */
+/* The first shape that a ray meets, into hit but for its last lines, and 1; or 0. */
 int spec_world_meet(
 	const struct spec_world *world, const struct spec_ray *ray, struct spec_hit *hit);
+
+/* Where on its shape a hit lies: what few materials ask for. */
+void spec_world_describe(const struct spec_world *world, struct spec_hit *hit);
 
 /* Whether something stands between a point and distance [m] along a direction. */
 int spec_world_blocks(

@@ -209,6 +209,7 @@ meet(const struct fixture *f, const struct spec_ray *ray)
 	memset(&hit, 0, sizeof hit);
 	if (!spec_world_meet(f->world, ray, &hit))
 		fail_msg("the ray meets nothing");
+	spec_world_describe(f->world, &hit);
 	return hit;
 }
 
