@@ -103,20 +103,19 @@ size_of(struct spec_vector v)
 	return fabs(v.x) + fabs(v.y) + fabs(v.z);
 }
 
-/* The triangle at a share of the whole area, 0 to 1. */
+/*
+ * The triangle at a share of the whole area, 0 to 1. Which half it is in is chance: a product
+ * does not make the processor guess.
+ */
 static size_t
 find_triangle(const struct spec_area *area, double share)
 {
 	double wanted = share * area->area;
-	size_t low = 0, high = area->shape->triangles - 1;
+	size_t low = 0;
 
-	while (low < high) {
-		size_t middle = (low + high) / 2;
-
-		if (area->until[middle] <= wanted)
-			low = middle + 1;
-		else
-			high = middle;
+	for (size_t count = area->shape->triangles, half; count > 1; count -= half) {
+		half = count / 2;
+		low += half * (area->until[low + half - 1] <= wanted);
 	}
 	return low;
 }
@@ -205,7 +204,7 @@ sample_flat(const struct spec_area *area, struct spec_vector from, const double 
 	double number, struct spec_area_sample *sample)
 {
 	struct spec_vector point, to;
-	double square, cosine,
+	double square, slant,
 		off = area->shape->kind == SPEC_SCENE_MESH
 			      ? sample_mesh(area, pair, number, &point, &sample->normal)
 			      : sample_disk(area, pair, &point, &sample->normal);
@@ -216,9 +215,11 @@ sample_flat(const struct spec_area *area, struct spec_vector from, const double 
 		return 0;
 	sample->distance = sqrt(square);
 	sample->direction = spec_vector_scale(to, 1 / sample->distance);
-	cosine = fabs(spec_vector_dot(sample->normal, sample->direction));
-	sample->density = square / (area->area * cosine);
-	sample->distance = fmax(sample->distance - off / cosine, 0);
+	slant = 1 / fabs(spec_vector_dot(sample->normal, sample->direction));
+	sample->density = square * slant / area->area;
+	sample->distance -= off * slant;
+	if (!(sample->distance > 0))
+		sample->distance = 0;
 	return sample->density < INFINITY;
 }
 
