@@ -25,6 +25,16 @@ enum spec_status spec_bands_make(struct spec_bands_grid *bands,
 	struct spec_error *error);
 void spec_bands_free(struct spec_bands_grid *bands);
 
+/*
+ * A list of values in the bands times a number. Who finds the values has room for new ones;
+ * what is constant but for the number is pointed to.
+ */
+struct spec_bands_scaled {
+	const float *value; /* [bands] */
+	double scale;
+	float *room; /* [bands] */
+};
+
 /* What a spectrum stands for: an RGB becomes another spectrum in each case. */
 enum spec_bands_use {
 	SPEC_BANDS_RATIO, /* 0 to 1 */

@@ -330,7 +330,6 @@ spec_lights_sample(const struct spec_lights *lights, struct spec_vector point,
 	double number = spec_sampler_number(sampler), pair[2];
 	const struct emitter *emitter = lights->emitter;
 	const struct emitter *last = lights->emitter + lights->emitters;
-	double factor;
 
 	spec_sampler_pair(sampler, pair);
 	while (emitter < last && !(number < emitter->until))
@@ -338,28 +337,28 @@ spec_lights_sample(const struct spec_lights *lights, struct spec_vector point,
 	if (emitter == last || !(emitter->chance > 0))
 		return 0;
 	number = (number - (emitter->until - emitter->chance)) / emitter->chance;
+	sample->radiance.value = emitter->value;
 	if (emitter->kind == SPEC_SCENE_POINT || emitter->kind == SPEC_SCENE_DISTANT) {
-		factor = reach(
-			lights, emitter, point, &sample->direction, &sample->distance);
+		sample->radiance.scale = reach(lights, emitter, point, &sample->direction,
+						 &sample->distance) /
+					 emitter->chance;
 		sample->density = 0;
-		scale_values(sample->value, emitter->value,
-			(float)(factor / emitter->chance), lights->bands);
 		return 1;
 	}
 	if (emitter->kind == SPEC_SCENE_INFINITE) {
 		if (!sample_surroundings(lights, emitter, pair, sample))
 			return 0;
-		sample->density *= emitter->chance;
-		memset(sample->value, 0, lights->bands * sizeof *sample->value);
-		spec_lights_add_surroundings(lights, sample->direction, NULL,
-			1 / sample->density, sample->value);
-		return 1;
-	}
-	if (!sample_shape(lights, emitter, point, pair, number, sample))
+		if (lights->picture.pixel) {
+			memset(sample->radiance.room, 0, lights->bands * sizeof(float));
+			spec_lights_add_surroundings(
+				lights, sample->direction, NULL, 1, sample->radiance.room);
+			sample->radiance.value = sample->radiance.room;
+		}
+	} else if (!sample_shape(lights, emitter, point, pair, number, sample)) {
 		return 0;
+	}
 	sample->density *= emitter->chance;
-	scale_values(
-		sample->value, emitter->value, (float)(1 / sample->density), lights->bands);
+	sample->radiance.scale = 1 / sample->density;
 	return 1;
 }
 

@@ -589,8 +589,8 @@ sample_dielectric(const struct spec_surface *surface, const float *throughput,
 /* --- all materials --- */
 
 double
-spec_material_evaluate(
-	const struct spec_surface *surface, struct spec_vector light, float *value)
+spec_material_evaluate(const struct spec_surface *surface, struct spec_vector light,
+	struct spec_bands_scaled *value)
 {
 	const struct spec_material *material = surface->material;
 	struct spec_frame frame = frame_of(surface);
@@ -601,20 +601,23 @@ spec_material_evaluate(
 			spec_vector_dot(surface->eye, surface->hit->normal) <=
 		0)
 		return 0;
+	value->value = value->room;
+	value->scale = 1;
 	if (material->kind == SPEC_SCENE_CONDUCTOR)
-		return evaluate_conductor(surface, &frame, light, value);
+		return evaluate_conductor(surface, &frame, light, value->room);
 	if (material->kind == SPEC_SCENE_DIFFRACTIVE) /* dark from behind */
-		return surface->cosine > 0 ? evaluate_disc(surface, &frame, light, value)
-					   : 0;
+		return surface->cosine > 0
+			       ? evaluate_disc(surface, &frame, light, value->room)
+			       : 0;
 	if (material->kind != SPEC_SCENE_DIFFUSE || !(cosine > 0))
 		return 0;
-	scale_values(value, material->reflectance, (float)(cosine / PI), material->bands);
-	return cosine / PI;
+	value->value = material->reflectance;
+	return value->scale = cosine / PI;
 }
 
 static double
 sample_diffuse(const struct spec_surface *surface, struct spec_sampler *sampler,
-	struct spec_vector *direction, float *weight)
+	struct spec_vector *direction, struct spec_bands_scaled *weight)
 {
 	struct spec_frame frame = frame_of(surface);
 	struct spec_vector local;
@@ -625,34 +628,38 @@ sample_diffuse(const struct spec_surface *surface, struct spec_sampler *sampler,
 	if (!(local.z > 0))
 		return -1;
 	*direction = spec_frame_to_world(&frame, local);
-	scale_values(weight, surface->material->reflectance, 1, surface->material->bands);
+	weight->value = surface->material->reflectance;
 	return local.z / PI;
 }
 
 double
 spec_material_sample(const struct spec_surface *surface, const float *throughput,
-	struct spec_sampler *sampler, struct spec_vector *direction, float *weight)
+	struct spec_sampler *sampler, struct spec_vector *direction,
+	struct spec_bands_scaled *weight)
 {
+	float *room = weight->room;
 	double density = -1;
 
+	weight->value = room;
+	weight->scale = 1;
 	switch (surface->material->kind) {
 	case SPEC_SCENE_DIFFUSE:
 		density = sample_diffuse(surface, sampler, direction, weight);
 		break;
 	case SPEC_SCENE_CONDUCTOR:
-		density = sample_conductor(surface, sampler, direction, weight);
+		density = sample_conductor(surface, sampler, direction, room);
 		break;
 	case SPEC_SCENE_DIFFRACTIVE:
-		density = sample_disc(surface, sampler, direction, weight);
+		density = sample_disc(surface, sampler, direction, room);
 		break;
 	case SPEC_SCENE_DIELECTRIC:
-		return sample_dielectric(surface, throughput, sampler, direction, weight);
+		return sample_dielectric(surface, throughput, sampler, direction, room);
 	case SPEC_SCENE_THINFILM:
-		return sample_film(surface, throughput, sampler, direction, weight);
+		return sample_film(surface, throughput, sampler, direction, room);
 	case SPEC_SCENE_INTERFACE:
 		*direction = spec_vector_negate(surface->eye);
 		for (size_t i = 0; i < surface->material->bands; i++)
-			weight[i] = 1;
+			room[i] = 1;
 		return 0;
 	}
 	/* Into the surface, past a bent shading normal. */

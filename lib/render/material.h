@@ -50,8 +50,8 @@ int spec_material_is_rough(const struct spec_material *material);
  * f cos for a direction to a light, in each band, and the density [1/sr] with which
  * spec_material_sample chooses it. Of rough materials alone.
  */
-double spec_material_evaluate(
-	const struct spec_surface *surface, struct spec_vector light, float *value);
+double spec_material_evaluate(const struct spec_surface *surface, struct spec_vector light,
+	struct spec_bands_scaled *value);
 
 /*
  * Chooses a direction and what the throughput is multiplied by there: f cos / density, in
@@ -59,6 +59,7 @@ double spec_material_evaluate(
  * density [1/sr], 0 for directions that no other way can find (mirrors), or -1: absorbed.
  */
 double spec_material_sample(const struct spec_surface *surface, const float *throughput,
-	struct spec_sampler *sampler, struct spec_vector *direction, float *weight);
+	struct spec_sampler *sampler, struct spec_vector *direction,
+	struct spec_bands_scaled *weight);
 
 #endif

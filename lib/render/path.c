@@ -52,17 +52,17 @@ fill(float *to, float value, size_t count)
 }
 
 /*
- * Returns the largest product. Floats of at least 0 are in the order of their bits, of which
- * gcc makes vector code.
+ * Multiplies by values and their scale; returns the largest product. Floats of at least 0
+ * are in the order of their bits, of which gcc makes vector code.
  */
 SPEC_VECTORISED static float
-multiply(float *restrict to, const float *restrict by, size_t count)
+multiply(float *restrict to, const float *restrict by, float scale, size_t count)
 {
 	uint32_t most = 0, bits;
 	float result;
 
 	for (size_t i = 0; i < count; i++) {
-		to[i] *= by[i];
+		to[i] *= by[i] * scale;
 		memcpy(&bits, to + i, sizeof bits);
 		most = bits > most ? bits : most;
 	}
@@ -101,21 +101,22 @@ add_direct(const struct spec_tracer *tracer, const struct spec_surface *surface,
 	int without_small, struct spec_sampler *sampler, struct spec_path_room *room,
 	float *radiance)
 {
-	struct spec_light_sample light = {.value = room->light};
+	struct spec_light_sample light = {.radiance.room = room->light};
+	struct spec_bands_scaled scattered = {.room = room->scattered};
 	double density, weight = 1;
 
 	if (!spec_lights_sample(tracer->lights, surface->hit->point, sampler, &light) ||
 		(without_small && light.density == 0))
 		return;
-	density = spec_material_evaluate(surface, light.direction, room->scattered);
+	density = spec_material_evaluate(surface, light.direction, &scattered);
 	if (!(density > 0))
 		return;
 	if (spec_world_shades(tracer->world, surface->hit, light.direction, light.distance))
 		return;
 	if (light.density > 0)
 		weight = heuristic(light.density, density);
-	add_three(radiance, room->throughput, room->scattered, light.value, (float)weight,
-		tracer->bands);
+	add_three(radiance, room->throughput, scattered.value, light.radiance.value,
+		(float)(weight * scattered.scale * light.radiance.scale), tracer->bands);
 }
 
 /* Where a path was scattered last, with what density; 0: by a mirror, or not at all. */
@@ -183,6 +184,7 @@ spec_path_trace(const struct spec_tracer *tracer, const struct spec_ray *first, 
 	fill(room->throughput, 1, tracer->bands);
 	for (;; depth++) {
 		struct spec_surface surface = {.hit = &hit, .room = room->room};
+		struct spec_bands_scaled weight = {.room = room->weight};
 		struct spec_vector direction;
 		float most;
 
@@ -205,11 +207,12 @@ spec_path_trace(const struct spec_tracer *tracer, const struct spec_ray *first, 
 				tracer, &surface, without_small, sampler, room, radiance);
 		without_small = 0;
 		last.density = spec_material_sample(
-			&surface, room->throughput, sampler, &direction, room->weight);
+			&surface, room->throughput, sampler, &direction, &weight);
 		if (last.density < 0)
 			return;
 		last.point = hit.point;
-		most = multiply(room->throughput, room->weight, tracer->bands);
+		most = multiply(
+			room->throughput, weight.value, (float)weight.scale, tracer->bands);
 		if (!survives(room, tracer->bands, most, depth, sampler))
 			return;
 		ray = spec_world_leave(tracer->world, &hit, direction);

@@ -167,14 +167,20 @@ expect_near(double value, double wanted, double bound, const char *what)
 		fail_msg("%s: %.9g instead of %.9g +- %.2g", what, value, wanted, bound);
 }
 
+static double
+value_of(const struct spec_light_sample *light, size_t band)
+{
+	return light->radiance.value[band] * light->radiance.scale;
+}
+
 /* The mean of value times cosine over samples, unshadowed, of one band. */
 static void
 estimate(struct fixture *f, struct spec_vector point, struct spec_vector normal,
 	unsigned samples, double *mean, double *deviation)
 {
 	double sum = 0, squares = 0;
-	float value[BANDS];
-	struct spec_light_sample light = {.value = value};
+	float room[BANDS];
+	struct spec_light_sample light = {.radiance.room = room};
 
 	f->seed++;
 	for (unsigned i = 0; i < samples; i++) {
@@ -187,8 +193,8 @@ estimate(struct fixture *f, struct spec_vector point, struct spec_vector normal,
 			continue;
 		expect_near(spec_vector_length(light.direction), 1, 1e-9, "a direction");
 		cosine = fmax(0, spec_vector_dot(light.direction, normal));
-		sum += cosine * value[1];
-		squares += cosine * value[1] * (cosine * value[1]);
+		sum += cosine * value_of(&light, 1);
+		squares += pow(cosine * value_of(&light, 1), 2);
 	}
 	*mean = sum / samples;
 	*deviation = sqrt(fmax(0, squares / samples - *mean * *mean) / samples);
@@ -813,8 +819,8 @@ test_densities(void **state)
 	add_all(f);
 	open_lights(f);
 	for (uint32_t i = 0; i < 20000; i++) {
-		float value[BANDS], sky[BANDS] = {0};
-		struct spec_light_sample light = {.value = value};
+		float room[BANDS], sky[BANDS] = {0};
+		struct spec_light_sample light = {.radiance.room = room};
 		struct spec_sampler sampler;
 		const float *emitted;
 		struct spec_ray ray;
@@ -836,7 +842,8 @@ test_densities(void **state)
 			expect_near(density / light.density, 1, 1e-6, "the sky's density");
 			spec_lights_add_surroundings(
 				f->lights, light.direction, NULL, 1, sky);
-			expect_near(value[2] * density, sky[2], 1e-6, "the sky's light");
+			expect_near(value_of(&light, 2) * density, sky[2], 1e-6,
+				"the sky's light");
 			continue;
 		}
 		assert_true(spec_world_meet(f->world, &ray, &hit));
@@ -849,7 +856,8 @@ test_densities(void **state)
 		assert_non_null(emitted);
 		/* Meshes are met in single precision. */
 		expect_near(density / light.density, 1, 1e-4, "an area's density");
-		expect_near(value[2] * light.density, emitted[2], 1e-5, "an area's light");
+		expect_near(value_of(&light, 2) * light.density, emitted[2], 1e-5,
+			"an area's light");
 		/* A mesh may be met a little before. */
 		expect_near(light.distance, hit.distance, 1e-4 * hit.distance, "distance");
 	}
@@ -896,17 +904,17 @@ test_chances(void **state)
 	add_all(f);
 	open_lights(f);
 	for (uint32_t i = 0; i < 20000; i++) {
-		float value[BANDS];
-		struct spec_light_sample light = {.value = value};
+		float room[BANDS];
+		struct spec_light_sample light = {.radiance.room = room};
 		struct spec_sampler sampler;
 
 		spec_sampler_start(&sampler, 2, 0, 0, i);
 		if (!spec_lights_sample(f->lights, point, &sampler, &light))
 			continue;
 		if (light.density == 0 && light.distance == INFINITY)
-			chance[0] = 0.1 / value[0];
+			chance[0] = 0.1 / value_of(&light, 0);
 		else if (light.density == 0)
-			chance[1] = 4 / 18. / value[0];
+			chance[1] = 4 / 18. / value_of(&light, 0);
 		else if (light.distance == INFINITY)
 			chance[2] = light.density * 4 * PI;
 		else if (light.distance < 0.5001)
@@ -940,20 +948,20 @@ test_dark_lights(void **state)
 	add_light(f, SPEC_SCENE_INFINITE, 0);
 	open_lights(f);
 	for (uint32_t i = 0; i < 1000; i++) {
-		float value[BANDS];
-		struct spec_light_sample sample = {.value = value};
+		float room[BANDS];
+		struct spec_light_sample sample = {.radiance.room = room};
 		struct spec_sampler sampler;
 
 		spec_sampler_start(&sampler, 2, 0, 0, i);
 		assert_true(spec_lights_sample(
 			f->lights, (struct spec_vector){0, 0, -2}, &sampler, &sample));
 		expect_near(sample.distance, 4, 1e-12, "distance");
-		expect_near(value[0], 4 / 16., 1e-7, "irradiance");
+		expect_near(value_of(&sample, 0), 4 / 16., 1e-7, "irradiance");
 	}
 	/* All of them dark, and none at all. */
 	for (int lights = 4; lights >= 0; lights -= 4) {
-		float value[BANDS];
-		struct spec_light_sample sample = {.value = value};
+		float room[BANDS];
+		struct spec_light_sample sample = {.radiance.room = room};
 		struct spec_sampler sampler;
 
 		light->scale = 0;

@@ -147,15 +147,42 @@ expect_near(double value, double wanted, double bound, const char *what)
 static const float whole[MOST_BANDS] = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1,
 	1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
 
+static void
+multiply_out(const struct fixture *f, const struct spec_bands_scaled *from, float *value)
+{
+	for (size_t i = 0; i < f->bands.count; i++)
+		value[i] = (float)(from->value[i] * from->scale);
+}
+
+/* f cos in each band, where the density is above 0. */
+static double
+evaluate(const struct fixture *f, struct spec_vector light, float *value)
+{
+	float room[MOST_BANDS];
+	struct spec_bands_scaled scattered = {.room = room};
+	double density = spec_material_evaluate(&f->surface, light, &scattered);
+
+	if (density > 0)
+		multiply_out(f, &scattered, value);
+	return density;
+}
+
 /* One choice; its density, the direction, and the weights. */
 static double
 choose(const struct fixture *f, const float *throughput, uint64_t seed, uint32_t sample,
 	struct spec_vector *direction, float *weight)
 {
 	struct spec_sampler sampler;
+	float room[MOST_BANDS];
+	struct spec_bands_scaled scaled = {.room = room};
+	double density;
 
 	spec_sampler_start(&sampler, seed, (int)(sample % 101), 0, sample);
-	return spec_material_sample(&f->surface, throughput, &sampler, direction, weight);
+	density =
+		spec_material_sample(&f->surface, throughput, &sampler, direction, &scaled);
+	if (density >= 0)
+		multiply_out(f, &scaled, weight);
+	return density;
 }
 
 /* --- rough materials: integrals over the hemisphere, by quadrature and by samples --- */
@@ -208,7 +235,7 @@ integrate(const struct fixture *f, struct integrals *sums)
 						sin(angle) * sin(azimuth), cos(angle)});
 			float value[MOST_BANDS];
 
-			density = spec_material_evaluate(&f->surface, d, value);
+			density = evaluate(f, d, value);
 			if (density > 0)
 				add_direction(
 					sums, d, density * size, (double)value[0] * size);
@@ -233,7 +260,7 @@ sample_all(const struct fixture *f, struct integrals *sums, struct integrals *sq
 		if (density < 0)
 			continue;
 		expect_near(spec_vector_length(d), 1, 1e-12, what);
-		again = spec_material_evaluate(&f->surface, d, value);
+		again = evaluate(f, d, value);
 		/* The direction is rounded on its way out of the frame and back. */
 		if (d.z > 1e-6) {
 			expect_near(again / density, 1, 1e-6, "density of a sample");
@@ -348,7 +375,7 @@ test_disc_from_behind(void **state)
 	make_disc(f, "cd");
 	f->hit.normal.z = f->hit.shading.z = -1;
 	look(f, at_angle(30, 0));
-	assert_true(spec_material_evaluate(&f->surface, at_angle(20, 90), value) == 0);
+	assert_true(evaluate(f, at_angle(20, 90), value) == 0);
 	for (uint32_t i = 0; i < 100; i++)
 		assert_true(choose(f, whole, 1, i, &d, value) < 0);
 }
@@ -392,9 +419,9 @@ expect_reciprocity(struct fixture *f, double bound, const char *what)
 		float there[MOST_BANDS], back[MOST_BANDS];
 
 		look(f, a);
-		assert_true(spec_material_evaluate(&f->surface, b, there) > 0);
+		assert_true(evaluate(f, b, there) > 0);
 		look(f, b);
-		assert_true(spec_material_evaluate(&f->surface, a, back) > 0);
+		assert_true(evaluate(f, a, back) > 0);
 		for (size_t j = 0; j < f->bands.count; j++)
 			expect_near(there[j] / b.z, back[j] / a.z,
 				bound * fabs(back[j] / a.z), what);
@@ -464,7 +491,7 @@ test_bent_normal(void **state)
 			if (choose(f, whole, 2, i, &d, value) >= 0)
 				assert_true(d.z > 0);
 			d = at_angle(90.5 + i % 30, i);
-			assert_true(spec_material_evaluate(&f->surface, d, value) == 0);
+			assert_true(evaluate(f, d, value) == 0);
 		}
 	}
 }
