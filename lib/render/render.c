@@ -560,7 +560,8 @@ store_pixel(const struct desk *desk, float *const *plane, size_t x)
 }
 
 static enum spec_status
-kernel(void *state, struct spec_stream_worker *worker, int line, struct spec_error *error)
+render_line(
+	void *state, struct spec_stream_worker *worker, int line, struct spec_error *error)
 {
 	struct spec_render *render = state;
 	const struct spec_window *data = &render->image.data;
@@ -568,9 +569,6 @@ kernel(void *state, struct spec_stream_worker *worker, int line, struct spec_err
 	float *const *plane;
 	enum spec_status status;
 
-	/* What Embree wants: tiny numbers are 0. */
-	_MM_SET_FLUSH_ZERO_MODE(_MM_FLUSH_ZERO_ON);
-	_MM_SET_DENORMALS_ZERO_MODE(_MM_DENORMALS_ZERO_ON);
 	desk.sums = worker->scratch;
 	desk.radiance = (float *)(void *)(desk.sums + render->slots);
 	desk.room = spec_path_room_new(render->bands.count, error);
@@ -584,6 +582,19 @@ kernel(void *state, struct spec_stream_worker *worker, int line, struct spec_err
 	spec_path_room_free(desk.room);
 	return status == SPEC_OK ? spec_packer_end(worker->packer, data->y0 + line, error)
 				 : status;
+}
+
+static enum spec_status
+kernel(void *state, struct spec_stream_worker *worker, int line, struct spec_error *error)
+{
+	unsigned modes = _mm_getcsr();
+	enum spec_status status;
+
+	/* What Embree wants: tiny numbers are 0. The thread may be the caller's. */
+	_mm_setcsr(modes | _MM_FLUSH_ZERO_ON | _MM_DENORMALS_ZERO_ON);
+	status = render_line(state, worker, line, error);
+	_mm_setcsr(modes);
+	return status;
 }
 
 enum spec_status

@@ -1,4 +1,5 @@
 /* Light transport against closed forms, and rendered files: scenes are built by hand. */
+#include <float.h>
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -459,6 +460,7 @@ render_picture(struct fixture *f, const struct spec_render_setup *wanted, int th
 	struct picture *picture)
 {
 	struct spec_render_setup setup = *wanted;
+	volatile double tiny = DBL_MIN;
 	unsigned long long overflows;
 	struct spec_error error;
 	int file;
@@ -475,6 +477,7 @@ render_picture(struct fixture *f, const struct spec_render_setup *wanted, int th
 	check(spec_render_open(&f->render, &f->scene, &setup, &f->settings, &error),
 		&error);
 	check(spec_render_run(&f->render, &f->settings, &overflows, &error), &error);
+	assert_true(tiny / 2 > 0); /* this thread has tiny numbers still */
 	check(spec_reader_open(&picture->reader, picture->path, &f->settings, &error),
 		&error);
 	picture->image = spec_reader_image(picture->reader);
