@@ -60,6 +60,8 @@ OIIOFLAGS = $(shell pkg-config --cflags OpenImageIO)
 OIIOLIBS = $(shell pkg-config --libs OpenImageIO)
 CPPFLAGS = -Ilib -D_GNU_SOURCE -DSPEC_VERSION='"$(VERSION)"'
 LDLIBS = $(EXRLIBS) -ldeflate -lpng16 -ldl -pthread -lm
+# Paths go to and fro between files at every surface. clang's would need another AR and ld.
+PATHFLAGS = $(if $(filter gcc%,$(CC)),-flto=auto)
 ALLCFLAGS = -std=c11 $(CFLAGS) $(MATHFLAGS) $(WARNFLAGS) $(CWARNFLAGS) $(SANFLAGS) -pthread -fPIC
 ALLCXXFLAGS = -std=c++17 $(CXXFLAGS) $(MATHFLAGS) $(WARNFLAGS) $(SANFLAGS) -pthread -fPIC
 ALLLDFLAGS = $(SANFLAGS) $(LDFLAGS)
@@ -99,7 +101,7 @@ help:
 # Building. Two files record what the rest was made with: after other flags everything is
 # compiled anew, after another list of objects the library is made anew.
 
-FLAGS = $(CC) $(CXX) $(AR) $(ALLCFLAGS) $(ALLCXXFLAGS) $(CPPFLAGS) $(ALLLDFLAGS) $(LDLIBS)
+FLAGS = $(CC) $(CXX) $(AR) $(PATHFLAGS) $(ALLCFLAGS) $(ALLCXXFLAGS) $(CPPFLAGS) $(ALLLDFLAGS) $(LDLIBS)
 ifneq ($(strip $(file <$(BUILD)/flags)),$(strip $(FLAGS)))
 $(BUILD)/flags: FORCE
 endif
@@ -121,6 +123,8 @@ $(BUILD)/obj/%.o: %.cpp $(BUILD)/flags | $(READY)
 	@mkdir -p $(@D)
 	$(SAY) c++ $<
 	$(QUIET)$(CXX) $(ALLCXXFLAGS) $(CPPFLAGS) $(OIIOFLAGS) -MMD -MP -c -o $@ $<
+
+$(BUILD)/obj/lib/render/%.o: private CFLAGS += $(PATHFLAGS)
 
 $(LIBRARY): $(LIBOBJECTS) $(BUILD)/objects
 	@rm -f $@
