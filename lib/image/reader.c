@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 
 #include "base/memory.h"
+#include "image/expandedreader.h"
 #include "image/reading.h"
 
 #define BLOCK_COPIES 4 /* packed, unpacked, scratch and converted */
@@ -165,8 +166,14 @@ static enum spec_status
 finish_opening(struct spec_reader **result, struct spec_reader *reader, const char *path,
 	const struct spec_settings *settings, struct spec_error *error)
 {
+	struct spec_represented represented = {0};
 	enum spec_status status = reader->format->open(reader, path, settings, error);
 
+	if (status == SPEC_OK)
+		status = spec_represented_read(
+			&reader->image, reader->source.name, &represented, error);
+	if (status == SPEC_OK && (represented.coefficients > 0 || represented.lines > 0))
+		status = spec_expanded_open(&reader, &represented, error);
 	if (status == SPEC_OK)
 		*result = reader;
 	else
