@@ -286,6 +286,14 @@ plan_sigmoids(struct spec_upsampling *upsampling, const struct spec_upsampling_s
 	return status;
 }
 
+enum spec_status
+spec_upsampling_refuse_sun(struct spec_error *error)
+{
+	return spec_error_set(error, SPEC_EUNSUPPORTED,
+		"Sun's spectra are no reflectances, they rise above 1 (they are light, or "
+		"unbounded)");
+}
+
 static enum spec_status
 plan_sun(struct spec_upsampling *upsampling, const struct spec_upsampling_setup *setup,
 	struct spec_error *error)
@@ -295,9 +303,7 @@ plan_sun(struct spec_upsampling *upsampling, const struct spec_upsampling_setup 
 	enum spec_status status;
 
 	if (setup->use == SPEC_UPSAMPLING_ALBEDO)
-		return spec_error_set(error, SPEC_EUNSUPPORTED,
-			"Sun's spectra are no reflectances, they rise above 1 (they are "
-			"light, or unbounded)");
+		return spec_upsampling_refuse_sun(error);
 	upsampling->widths = WIDTHS;
 	upsampling->sun = spec_memory_new(1, sizeof *upsampling->sun, "models", error);
 	upsampling->matrix =

@@ -64,6 +64,9 @@ enum spec_status spec_upsampling_find_model(
 enum spec_status spec_upsampling_find_use(
 	const char *name, enum spec_upsampling_use *use, struct spec_error *error);
 
+/* The error of an albedo of Sun's. */
+enum spec_status spec_upsampling_refuse_sun(struct spec_error *error);
+
 /*
  * Colours are linear, with Rec. 709's primaries and D65. How a model's spectrum is used:
  *     Smits, basis   as it is; as light, times D65. An albedo above 1, which Smits' red

@@ -1,0 +1,31 @@
+/* The spectrum of one RGB colour as a curve. */
+#ifndef SPEC_IMAGE_COLOURCURVE_H
+#define SPEC_IMAGE_COLOURCURVE_H
+
+#include "base/error.h"
+#include "image/fromrgb.h"
+#include "spectrum/curve.h"
+
+/* Whether a text is meant for a colour: it begins with '#' or "rgb:". */
+int spec_colour_curve_is_name(const char *text);
+
+/*
+ * "#rrggbb", encoded as sRGB has it, or "rgb:R,G,B", linear numbers >= 0. Error
+ * (SPEC_EUSAGE, SPEC_ERANGE): another text.
+ */
+enum spec_status spec_colour_curve_parse(
+	const char *text, double rgb[3], struct spec_error *error);
+
+/*
+ * The spectrum on a grid, or null: SPEC_FROMRGB_GRID; setup has the model, its use and the
+ * rule for D65, as spec_fromrgb_plan takes them, and of sigmoids it is a fit. Its samples
+ * are values at the wavelengths; but after Smits they are means over the bands of the grid,
+ * for linear between points on his steps it would not have their energy.
+ * Errors: SPEC_ERANGE, a component that is not in [0, 1], of other uses than albedo not
+ * finite and >= 0; those of the models.
+ */
+enum spec_status spec_colour_curve(const double rgb[3],
+	const struct spec_fromrgb_setup *setup, struct spec_curve *curve,
+	struct spec_error *error);
+
+#endif
