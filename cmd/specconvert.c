@@ -11,7 +11,9 @@
 #include "base/source.h"
 #include "cli/options.h"
 #include "cli/progress.h"
+#include "image/colourcurve.h"
 #include "image/convert.h"
+#include "image/fromrgb.h"
 #include "image/patches.h"
 #include "image/writer.h"
 #include "spectrum/lookup.h"
@@ -27,6 +29,10 @@ static const struct cli_option options[] = {
 	{'m', "multiply", "SPD", "multiply by a curve; may be given several times"},
 	{'s', "scale", "X", "multiply by a number"},
 	{0, "illuminate", "SPD", "turn reflectance into the light it sends back"},
+	{0, "from-rgb", "smits|sun|sigmoid|basis",
+		"make spectra of the colours of an image, or of '#rrggbb'"},
+	{0, "as", "reflectance|light|unbounded",
+		"what they become (default: reflectance; after sun, light)"},
 	{0, "extrapolate", "refuse|zero|constant",
 		"what lies outside the data (default: refuse)"},
 	{0, "crop", "X0,Y0,X1,Y1",
@@ -59,7 +65,10 @@ struct job {
 	size_t input_room, multiply_room, band_room;
 	struct spec_convert_setup setup;
 	struct spec_patches_setup patches;
-	int text; /* the output is: 1 text, 0 an image, -1 as the input */
+	struct spec_fromrgb_setup colours;
+	int from_rgb, as;           /* the options were given */
+	unsigned long long clamped; /* pixels whose colour was out of range */
+	int text;                   /* the output is: 1 text, 0 an image, -1 as the input */
 	unsigned long long overflows; /* samples that --half made infinite */
 	struct spec_settings settings;
 };
@@ -125,6 +134,20 @@ take_multiply(struct job *job, const char *text, struct spec_error *error)
 }
 
 static enum spec_status
+take_model(struct job *job, const char *text, struct spec_error *error)
+{
+	job->from_rgb = 1;
+	return spec_upsampling_find_model(text, &job->colours.model, error);
+}
+
+static enum spec_status
+take_use(struct job *job, const char *text, struct spec_error *error)
+{
+	job->as = 1;
+	return spec_upsampling_find_use(text, &job->colours.use, error);
+}
+
+static enum spec_status
 take_extrapolate(struct job *job, const char *text, struct spec_error *error)
 {
 	static const char *const names[] = {"refuse", "zero", "constant"};
@@ -132,7 +155,7 @@ take_extrapolate(struct job *job, const char *text, struct spec_error *error)
 	for (int i = 0; i < 3; i++) {
 		if (strcmp(text, names[i]) == 0) {
 			job->setup.extrapolate = job->patches.extrapolate =
-				(enum spec_extrapolate)i;
+				job->colours.extrapolate = (enum spec_extrapolate)i;
 			return SPEC_OK;
 		}
 	}
@@ -186,6 +209,10 @@ take(void *state, const char *name, const char *value, struct spec_error *error)
 		spec_curve_free(&job->illuminate);
 		return spec_lookup_light(value, &job->illuminate, error);
 	}
+	if (strcmp(name, "from-rgb") == 0)
+		return take_model(job, value, error);
+	if (strcmp(name, "as") == 0)
+		return take_use(job, value, error);
 	if (strcmp(name, "extrapolate") == 0)
 		return take_extrapolate(job, value, error);
 	if (strcmp(name, "crop") == 0) {
@@ -216,11 +243,16 @@ parse(struct cli *cli, struct job *job, struct spec_error *error)
 		cli_check(cli, take_input(job, "-", error), error);
 	if (job->grid.count > 0 && job->bands.count > 0)
 		cli_usage(cli, "--grid and --band exclude each other");
+	if (job->as && !job->from_rgb)
+		cli_usage(cli, "--as goes with --from-rgb");
+	if (!job->as && job->colours.model == SPEC_UPSAMPLING_SUN)
+		job->colours.use = SPEC_UPSAMPLING_LIGHT;
 	job->setup.grid = job->grid.count > 0 ? &job->grid : NULL;
 	job->setup.bands = job->bands.count > 0 ? &job->bands : NULL;
 	job->setup.multiply = job->multiply;
 	job->setup.illuminate = job->illuminate.count > 0 ? &job->illuminate : NULL;
-	job->setup.half = job->patches.half = job->settings.half;
+	job->setup.half = job->patches.half = job->colours.half = job->settings.half;
+	job->colours.grid = job->setup.grid;
 }
 
 static int
@@ -280,6 +312,28 @@ settle_format(struct job *job, int input_is_text, struct spec_error *error)
 	return job->text ? SPEC_OK : spec_writer_choose(output, NULL, &format, error);
 }
 
+/* A curve by its name, that on standard input, or the spectrum of a colour. */
+static enum spec_status
+take_curve(const struct job *job, const char *name, struct spec_curve *curve,
+	struct spec_error *error)
+{
+	double rgb[3];
+	enum spec_status status;
+
+	if (!job->from_rgb)
+		return strcmp(name, "-") == 0
+			       ? spec_spd_read(stdin, "<stdin>", curve, error)
+			       : spec_lookup_curve(name, curve, error);
+	if (!spec_colour_curve_is_name(name))
+		return spec_error_set(error, SPEC_EUSAGE,
+			"--from-rgb is for images and colours ('#ff8000', 'rgb:1,0.5,0'), not "
+			"for the curve '%.200s'",
+			name);
+	status = spec_colour_curve_parse(name, rgb, error);
+	return status == SPEC_OK ? spec_colour_curve(rgb, &job->colours, curve, error)
+				 : status;
+}
+
 /* A curve after --grid, --multiply and --scale. */
 static enum spec_status
 load_curve(const struct job *job, const char *name, struct spec_curve *curve,
@@ -287,9 +341,7 @@ load_curve(const struct job *job, const char *name, struct spec_curve *curve,
 {
 	const struct spec_curve *factor = job->setup.multiply;
 	struct spec_curve next;
-	enum spec_status status = strcmp(name, "-") == 0
-					  ? spec_spd_read(stdin, "<stdin>", curve, error)
-					  : spec_lookup_curve(name, curve, error);
+	enum spec_status status = take_curve(job, name, curve, error);
 
 	for (size_t i = 0; i < job->setup.multiplies && status == SPEC_OK; i++) {
 		status = spec_curve_multiply(curve, &factor[i], &next, error);
@@ -398,7 +450,7 @@ image_to_text(struct job *job, struct spec_reader *reader, struct spec_error *er
 	struct spec_curve curve = {0};
 	enum spec_status status;
 
-	if (changes_image(job))
+	if (changes_image(job) || job->from_rgb)
 		return spec_error_set(error, SPEC_EUSAGE,
 			"change the image first, then make it text: specconvert ... | "
 			"specconvert -f spd");
@@ -406,6 +458,32 @@ image_to_text(struct job *job, struct spec_reader *reader, struct spec_error *er
 	if (status == SPEC_OK)
 		status = spec_spd_save(job->settings.output, &curve, error);
 	spec_curve_free(&curve);
+	return status;
+}
+
+/* An image of three colours becomes spectral; nothing else is done to it on the way. */
+static enum spec_status
+convert_colours(struct job *job, struct spec_reader *reader, int argc, char **argv,
+	struct spec_error *error)
+{
+	struct job without = *job;
+	struct spec_fromrgb fromrgb;
+	enum spec_status status;
+
+	without.setup.grid = NULL;
+	if (changes_image(&without))
+		return spec_error_set(error, SPEC_EUSAGE,
+			"make the spectra first, then change the image: specconvert --from-rgb "
+			"... | specconvert ...");
+	status = spec_fromrgb_plan(&fromrgb, spec_reader_image(reader), &job->colours,
+		spec_reader_name(reader), error);
+	if (status == SPEC_OK && job->settings.history)
+		status = spec_image_add_history(&fromrgb.image, argc, argv, error);
+	if (status == SPEC_OK)
+		status = spec_fromrgb_run(
+			&fromrgb, reader, &job->settings, &job->overflows, error);
+	job->clamped = fromrgb.clamped;
+	spec_fromrgb_free(&fromrgb);
 	return status;
 }
 
@@ -427,6 +505,8 @@ convert_image(struct job *job, int argc, char **argv, struct spec_error *error)
 		status = spec_reader_open(&reader, job->input[0], &job->settings, error);
 	if (status == SPEC_OK && job->text) {
 		status = image_to_text(job, reader, error);
+	} else if (status == SPEC_OK && job->from_rgb) {
+		status = convert_colours(job, reader, argc, argv, error);
 	} else if (status == SPEC_OK) {
 		status = spec_convert_plan(&convert, spec_reader_image(reader), &job->setup,
 			spec_reader_name(reader), error);
@@ -474,6 +554,11 @@ main(int argc, char **argv)
 					: convert_image(&job, argc, argv, &error);
 	cli_progress_end(&progress);
 	cli_check(&cli, status, &error);
+	if (!job.settings.quiet && job.clamped > 0)
+		cli_warn(&cli, "%llu pixels had a component outside %s, which was clamped",
+			job.clamped,
+			job.colours.use == SPEC_UPSAMPLING_ALBEDO ? "[0, 1]"
+								  : "the range from 0 on");
 	if (!job.settings.quiet)
 		cli_warn_overflows(&cli, job.settings.output, job.overflows);
 	free_job(&job);
