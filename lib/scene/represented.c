@@ -85,7 +85,7 @@ limits_of(enum spec_scene_use use, double *least, double *most)
 					      : SPEC_INDEX_LARGEST;
 }
 
-/* Clamps a series that leaves the values of its use, with a warning. */
+/* Clamps what leaves the values of its use, with a warning; lines stay. */
 static enum spec_status
 clamp_series(const struct reading *reading, struct spec_spectrum *spectrum)
 {
@@ -93,6 +93,7 @@ clamp_series(const struct reading *reading, struct spec_spectrum *spectrum)
 	struct spec_extremes extremes;
 	struct spec_spectrum clamped;
 	double least, most, worst, worst_nm;
+	size_t lines;
 	enum spec_status status =
 		spec_spectrum_extremes(spectrum, &extremes, arguments->error);
 
@@ -106,18 +107,23 @@ clamp_series(const struct reading *reading, struct spec_spectrum *spectrum)
 		return spec_scene_fail_value(arguments, reading->parameter, reading->use,
 			extremes.least <= 0 ? extremes.least : worst,
 			extremes.least <= 0 ? extremes.least_nm : worst_nm);
-	status = spec_scene_warn(arguments->scene, &reading->parameter->place,
+	status = spec_scene_warn(arguments->scene,
+		reading->parameter ? &reading->parameter->place : &arguments->place,
 		arguments->error, "'%.60s' of %s is %s and %.3g at %.4g nm; it is clamped",
-		reading->parameter->name, arguments->statement,
-		spec_scene_use_name(reading->use), worst, worst_nm);
+		reading->parameter ? reading->parameter->name : spectrum->title,
+		arguments->statement, spec_scene_use_name(reading->use), worst, worst_nm);
+	lines = spectrum->lines;
+	spectrum->lines = 0;
 	if (status == SPEC_OK)
 		status = spec_spectrum_clamp(
 			spectrum, least, most, &clamped, arguments->error);
+	spectrum->lines = lines;
 	if (status != SPEC_OK)
 		return status;
+	status = spec_spectrum_add_lines(&clamped, spectrum->line, lines, arguments->error);
 	spec_spectrum_free(spectrum);
 	*spectrum = clamped;
-	return SPEC_OK;
+	return status;
 }
 
 /* A series, from the range on. */
@@ -349,6 +355,33 @@ read_colour(const struct reading *reading, struct spec_scene_spectrum *spectrum)
 		return status;
 	}
 	return clamp_rgb(reading, spectrum->rgb);
+}
+
+enum spec_status
+spec_scene_keep_light(const struct spec_arguments *arguments,
+	const struct spec_parameter *parameter, struct spec_spectrum *stored,
+	struct spec_scene_spectrum *spectrum)
+{
+	struct reading reading = {arguments, parameter, SPEC_SCENE_LIGHT};
+	struct spec_spectrum *light = &spectrum->spectrum;
+	struct spec_extremes extremes;
+	enum spec_status status;
+
+	*light = *stored;
+	*stored = (struct spec_spectrum){0};
+	spectrum->kind = SPEC_SCENE_SPECTRUM;
+	for (size_t i = 0; i < light->lines; i++)
+		if (light->line[i].weight < 0)
+			return spec_arguments_fail(arguments, parameter, SPEC_ERANGE,
+				"has a line of negative weight: %g at %g nm",
+				light->line[i].weight, light->line[i].wavelength_nm);
+	if (light->smooth == SPEC_SPECTRUM_FOURIER)
+		return clamp_series(&reading, light);
+	status = spec_spectrum_extremes(light, &extremes, arguments->error);
+	if (status == SPEC_OK && extremes.least < 0)
+		status = spec_scene_fail_value(arguments, parameter, SPEC_SCENE_LIGHT,
+			extremes.least, extremes.least_nm);
+	return status;
 }
 
 enum spec_status

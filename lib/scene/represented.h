@@ -36,6 +36,15 @@ enum spec_status spec_scene_read_represented(const struct spec_arguments *argume
 	const struct spec_parameter *parameter, enum spec_scene_use use,
 	struct spec_scene_spectrum *spectrum);
 
+/*
+ * Takes a spectrum of a file for light, also where it fails: as it is, or clamped to 0 and
+ * above as above. parameter: null where it is the statement's own. SPEC_ERANGE: other than a
+ * Fourier series it has negative values, or it has lines that weigh less than 0.
+ */
+enum spec_status spec_scene_keep_light(const struct spec_arguments *arguments,
+	const struct spec_parameter *parameter, struct spec_spectrum *stored,
+	struct spec_scene_spectrum *spectrum);
+
 /* What spectra.c has for all types. */
 
 /* "light" and so on. */

@@ -11,6 +11,7 @@
 #include "spectrum/curve.h"
 #include "spectrum/lookup.h"
 #include "spectrum/spd.h"
+#include "spectrum/store.h"
 
 /* Where values of a use lie. */
 static const struct {
@@ -203,32 +204,30 @@ ends_in(const char *text, const char *end)
 	return length > strlen(end) && strcmp(text + length - strlen(end), end) == 0;
 }
 
-/* Reads the curve that a name stands for, with all its columns. */
+/* The path of the file that a name stands for, to be freed. */
 static enum spec_status
-load(const struct spec_arguments *arguments, const struct spec_scene_place *place,
-	const char *name, struct spec_curve *curve)
+find(const struct spec_arguments *arguments, const struct spec_scene_place *place,
+	const char *name, char **path)
 {
-	char *path = NULL;
 	enum spec_status status = SPEC_OK;
 
+	*path = NULL;
 	if (strchr(name, '/') || ends_in(name, ".spd") || ends_in(name, ".txt") ||
 		ends_in(name, ".csv")) {
 		status = spec_scene_find_file(
-			arguments->scene, place, name, &path, arguments->error);
-		if (status != SPEC_OK)
+			arguments->scene, place, name, path, arguments->error);
+		if (status != SPEC_OK || *path)
 			return status;
 	}
-	status = path ? spec_spd_load(path, curve, arguments->error)
-		      : spec_lookup_curve(name, curve, arguments->error);
-	free(path);
+	status = spec_lookup_path(name, path, arguments->error);
 	if (status != SPEC_OK)
 		spec_scene_prefix(arguments->scene, place, arguments->error);
 	return status;
 }
 
 static enum spec_status
-load_named(const struct spec_arguments *arguments, const struct spec_parameter *parameter,
-	const char *name, enum spec_scene_use use, struct spec_curve *curve)
+find_named(const struct spec_arguments *arguments, const struct spec_parameter *parameter,
+	const char *name, enum spec_scene_use use, char **path)
 {
 	const struct spec_scene_place *place =
 		parameter ? &parameter->place : &arguments->place;
@@ -237,12 +236,12 @@ load_named(const struct spec_arguments *arguments, const struct spec_parameter *
 	enum spec_status status;
 
 	if (!translate(name, ours, sizeof ours, &column, &hint))
-		return load(arguments, place, name, curve);
+		return find(arguments, place, name, path);
 	if (column && (use != SPEC_SCENE_ETA || *column != 'n') &&
 		(use != SPEC_SCENE_K || *column != 'k'))
 		return spec_arguments_fail(arguments, parameter, SPEC_EUSAGE,
 			"is %s, which '%.60s' is not", ranges[use].what, name);
-	status = hint ? SPEC_EUSAGE : spec_lookup_curve(ours, curve, arguments->error);
+	status = hint ? SPEC_EUSAGE : spec_lookup_path(ours, path, arguments->error);
 	if (status == SPEC_EUSAGE)
 		return spec_arguments_fail(arguments, parameter, SPEC_EUNSUPPORTED,
 			"is '%.60s', which is not among our spectra%s%s", name,
@@ -252,18 +251,48 @@ load_named(const struct spec_arguments *arguments, const struct spec_parameter *
 	return status;
 }
 
+/* A curve in place of what a file holds; a Fourier series or lines of light stay. */
+static enum spec_status
+load(const struct spec_arguments *arguments, const struct spec_parameter *parameter,
+	const char *path, enum spec_scene_use use, struct spec_scene_spectrum *spectrum)
+{
+	const struct spec_scene_place *place =
+		parameter ? &parameter->place : &arguments->place;
+	struct spec_spectrum stored = {0};
+	enum spec_status status = spec_spectrum_load(path, &stored, arguments->error);
+
+	if (status == SPEC_OK && use == SPEC_SCENE_LIGHT &&
+		(stored.lines > 0 || !stored.wavelength_nm))
+		return spec_scene_keep_light(arguments, parameter, &stored, spectrum);
+	spec_spectrum_free(&stored);
+	if (status == SPEC_OK)
+		status = spec_spd_load(path, &spectrum->curve, arguments->error);
+	spectrum->kind = SPEC_SCENE_CURVE;
+	if (status != SPEC_OK)
+		spec_scene_prefix(arguments->scene, place, arguments->error);
+	return status;
+}
+
 static enum spec_status
 read_named(const struct spec_arguments *arguments, const struct spec_parameter *parameter,
 	const char *name, enum spec_scene_use use, struct spec_scene_spectrum *spectrum)
 {
-	struct spec_curve *curve = &spectrum->curve;
-	enum spec_status status = load_named(arguments, parameter, name, use, curve);
+	struct spec_curve *curve = &spectrum->curve, quantity;
+	char *path = NULL;
+	enum spec_status status = find_named(arguments, parameter, name, use, &path);
 	size_t column;
 
+	if (status == SPEC_OK)
+		status = load(arguments, parameter, path, use, spectrum);
+	free(path);
 	if (status != SPEC_OK)
 		return status;
-	spectrum->kind = SPEC_SCENE_CURVE;
-	column = find_column(curve, use);
+	if (spectrum->kind == SPEC_SCENE_SPECTRUM) {
+		quantity = (struct spec_curve){.quantity = spectrum->spectrum.quantity};
+		if (spec_curve_is_light(&quantity))
+			return SPEC_OK;
+	}
+	column = curve->count > 0 ? find_column(curve, use) : curve->columns;
 	if (column == curve->columns)
 		return spec_arguments_fail(arguments, parameter, SPEC_EUSAGE,
 			"is %s, which '%.60s' is not", ranges[use].what, name);

@@ -333,24 +333,35 @@ find_path(const struct catalogue *catalogue, const char *name, char **path,
 }
 
 enum spec_status
-spec_lookup_curve(const char *name, struct spec_curve *curve, struct spec_error *error)
+spec_lookup_path(const char *name, char **path, struct spec_error *error)
 {
 	struct catalogue catalogue;
 	struct stat about;
-	char *path = NULL;
 	enum spec_status status;
 
-	*curve = (struct spec_curve){0};
-	if (is_path(name) && stat(name, &about) == 0 && !S_ISDIR(about.st_mode))
-		return spec_spd_load(name, curve, error);
+	*path = NULL;
+	if (is_path(name) && stat(name, &about) == 0 && !S_ISDIR(about.st_mode)) {
+		*path = spec_memory_text(name, strlen(name), error);
+		return *path ? SPEC_OK : SPEC_ENOMEM;
+	}
 	status = catalogue_open(&catalogue, error);
 	if (status != SPEC_OK)
 		return status;
-	status = find_path(&catalogue, name, &path, error);
+	status = find_path(&catalogue, name, path, error);
+	catalogue_close(&catalogue);
+	return status;
+}
+
+enum spec_status
+spec_lookup_curve(const char *name, struct spec_curve *curve, struct spec_error *error)
+{
+	char *path;
+	enum spec_status status = spec_lookup_path(name, &path, error);
+
+	*curve = (struct spec_curve){0};
 	if (status == SPEC_OK)
 		status = spec_spd_load(path, curve, error);
 	free(path);
-	catalogue_close(&catalogue);
 	return status;
 }
 

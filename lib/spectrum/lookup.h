@@ -27,6 +27,9 @@
 enum spec_status spec_lookup_curve(
 	const char *name, struct spec_curve *curve, struct spec_error *error);
 
+/* The path of the file that it reads, to be freed; null on an error. */
+enum spec_status spec_lookup_path(const char *name, char **path, struct spec_error *error);
+
 /* As spec_lookup_curve; SPEC_EUSAGE also where the curve is no light, such as an index. */
 enum spec_status spec_lookup_light(
 	const char *name, struct spec_curve *curve, struct spec_error *error);

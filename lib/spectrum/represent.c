@@ -9,6 +9,7 @@
 
 #define STEP_NM 1.    /* of what has no samples */
 #define WAVE_STEPS 16 /* in the shortest wave of a Fourier series */
+#define MOST_STEPS (SPEC_GRID_LONGEST - 1)
 #define END_SLACK 1e-9
 
 /* ---- wavelengths ---- */
@@ -23,8 +24,7 @@ spec_spectrum_grid(
 	steps = fmax(ceil((high_nm - low_nm) / STEP_NM - END_SLACK), 1);
 	if (spectrum->smooth == SPEC_SPECTRUM_FOURIER)
 		steps = fmax(steps, WAVE_STEPS * (double)(spectrum->count / 2));
-	if (!(steps < SPEC_SPECTRUM_MOST_SAMPLES))
-		steps = SPEC_SPECTRUM_MOST_SAMPLES - 1;
+	steps = fmin(steps, MOST_STEPS);
 	*count = spectrum->wavelength_nm ? spectrum->count : (size_t)steps + 1;
 	nm = spec_memory_new(*count, sizeof *nm, "wavelengths", error);
 	if (!nm)
@@ -70,12 +70,18 @@ spread_line(const struct spec_line *line, enum spec_interpolate interpolate,
 	const double *nm, double *value, size_t count)
 {
 	double width_nm, part;
-	size_t i = 0;
+	size_t i = 0, high = count - 1;
 
 	if (count < 2 || line->wavelength_nm < nm[0] || line->wavelength_nm > nm[count - 1])
 		return;
-	while (i + 2 < count && nm[i + 1] <= line->wavelength_nm)
-		i++;
+	while (high - i > 1) {
+		size_t middle = i + (high - i) / 2;
+
+		if (nm[middle] <= line->wavelength_nm)
+			i = middle;
+		else
+			high = middle;
+	}
 	width_nm = nm[i + 1] - nm[i];
 	part = (line->wavelength_nm - nm[i]) / width_nm;
 	if (interpolate == SPEC_INTERPOLATE_LEFT) {

@@ -36,7 +36,7 @@ enum spec_status spec_representation_parse(const char *text,
 /*
  * The wavelengths that stand for a spectrum where it has to be sampled: those of its
  * samples; else equal steps over its range (spec_spectrum_range), at most 1 nm and at most
- * a sixteenth of the shortest wave of a Fourier series. To be freed with free; null:
+ * a sixteenth of the shortest wave of a Fourier series, as far as SPEC_GRID_LONGEST allows. To be freed with free; null:
  * SPEC_ENOMEM.
  */
 double *spec_spectrum_grid(

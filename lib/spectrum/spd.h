@@ -13,7 +13,8 @@
 
 /*
  * Reads a curve from file up to its end, or from size bytes at text. name stands for the
- * file in messages, which begin "name:line: ".
+ * file in messages, which begin "name:line: ". A spectrum that is no plain table (store.h)
+ * is converted to one as spec_spectrum_to_curve does.
  * SPEC_EFORMAT: not this format, damaged, or without rows. SPEC_ERANGE: a line or the
  * table is too long. SPEC_EIO, SPEC_ENOMEM. On an error curve is empty.
  */

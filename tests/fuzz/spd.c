@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "spectrum/spd.h"
+#include "spectrum/store.h"
 
 #include "fuzz.h"
 
@@ -49,6 +50,51 @@ write_back(const struct spec_curve *curve)
 	free(text);
 }
 
+static struct spec_spectrum
+read_spectrum(const char *text, size_t size, enum spec_status *status)
+{
+	FILE *file = fmemopen((void *)(uintptr_t)text, size, "r");
+	struct spec_spectrum spectrum = {0};
+	struct spec_error error = {0};
+
+	*status = SPEC_EIO;
+	if (!file)
+		return spectrum;
+	*status = spec_spectrum_read(file, "fuzz", &spectrum, &error);
+	fclose(file);
+	return spectrum;
+}
+
+/* The same for a spectrum of any kind: its second text is its first. */
+static void
+check_spectrum(const char *bytes, size_t size)
+{
+	char *text[2] = {NULL, NULL};
+	size_t sizes[2] = {0, 0};
+	enum spec_status status;
+
+	for (int i = 0; i < 2; i++) {
+		struct spec_spectrum spectrum = read_spectrum(
+			i == 0 ? bytes : text[0], i == 0 ? size : sizes[0], &status);
+		FILE *file = open_memstream(&text[i], &sizes[i]);
+		struct spec_error error;
+
+		require(file != NULL, "no memory file");
+		if (status == SPEC_OK)
+			status = spec_spectrum_write(file, &spectrum, &error);
+		fclose(file);
+		spec_spectrum_free(&spectrum);
+		require(i == 0 || status == SPEC_OK, "a spectrum does not come back");
+		if (status != SPEC_OK)
+			break;
+	}
+	if (status == SPEC_OK)
+		require(sizes[0] == sizes[1] && memcmp(text[0], text[1], sizes[0]) == 0,
+			"another spectrum");
+	free(text[0]);
+	free(text[1]);
+}
+
 int
 LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
@@ -66,5 +112,6 @@ LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 			"wavelengths disordered");
 	write_back(&curve);
 	spec_curve_free(&curve);
+	check_spectrum((const char *)data, size);
 	return 0;
 }
