@@ -18,6 +18,7 @@
 #include "image/writer.h"
 #include "spectrum/lookup.h"
 #include "spectrum/product.h"
+#include "spectrum/reshape.h"
 #include "spectrum/spd.h"
 
 #define UTF_8_MARK 0xef /* its first byte */
@@ -35,6 +36,10 @@ static const struct cli_option options[] = {
 		"what they become (default: reflectance; after sun, light)"},
 	{0, "extrapolate", "refuse|zero|constant",
 		"what lies outside the data (default: refuse)"},
+	{0, "interp", "linear|nearest|left|sprague",
+		"what lies between a curve's samples (default: as its file says, or linear)"},
+	{0, "to", "KIND",
+		"sampled:LO:HI:STEP, tabulated, fourier:N, composite:K or composite:K,N"},
 	{0, "crop", "X0,Y0,X1,Y1",
 		"keep these pixels of the data window; x1, y1 are not in it"},
 	{0, "downsample", "N", "mean of N x N pixels"},
@@ -69,6 +74,10 @@ struct job {
 	int from_rgb, as;           /* the options were given */
 	unsigned long long clamped; /* pixels whose colour was out of range */
 	int text;                   /* the output is: 1 text, 0 an image, -1 as the input */
+	struct spec_representation to;
+	int has_to;
+	enum spec_interpolate interpolate;
+	int has_interpolate;
 	unsigned long long overflows; /* samples that --half made infinite */
 	struct spec_settings settings;
 };
@@ -215,6 +224,14 @@ take(void *state, const char *name, const char *value, struct spec_error *error)
 		return take_use(job, value, error);
 	if (strcmp(name, "extrapolate") == 0)
 		return take_extrapolate(job, value, error);
+	if (strcmp(name, "to") == 0) {
+		job->has_to = 1;
+		return spec_representation_parse(value, &job->to, error);
+	}
+	if (strcmp(name, "interp") == 0) {
+		job->has_interpolate = 1;
+		return spec_interpolate_parse(value, &job->interpolate, error);
+	}
 	if (strcmp(name, "crop") == 0) {
 		job->setup.has_crop = 1;
 		return spec_settings_crop(value, &job->setup.crop, error);
@@ -247,6 +264,8 @@ parse(struct cli *cli, struct job *job, struct spec_error *error)
 		cli_usage(cli, "--as goes with --from-rgb");
 	if (!job->as && job->colours.model == SPEC_UPSAMPLING_SUN)
 		job->colours.use = SPEC_UPSAMPLING_LIGHT;
+	if (job->grid.count > 0 && job->has_to)
+		cli_usage(cli, "--grid and --to exclude each other");
 	job->setup.grid = job->grid.count > 0 ? &job->grid : NULL;
 	job->setup.bands = job->bands.count > 0 ? &job->bands : NULL;
 	job->setup.multiply = job->multiply;
@@ -312,18 +331,14 @@ settle_format(struct job *job, int input_is_text, struct spec_error *error)
 	return job->text ? SPEC_OK : spec_writer_choose(output, NULL, &format, error);
 }
 
-/* A curve by its name, that on standard input, or the spectrum of a colour. */
+/* The spectrum of a colour. */
 static enum spec_status
-take_curve(const struct job *job, const char *name, struct spec_curve *curve,
+take_colour(const struct job *job, const char *name, struct spec_curve *curve,
 	struct spec_error *error)
 {
 	double rgb[3];
 	enum spec_status status;
 
-	if (!job->from_rgb)
-		return strcmp(name, "-") == 0
-			       ? spec_spd_read(stdin, "<stdin>", curve, error)
-			       : spec_lookup_curve(name, curve, error);
 	if (!spec_colour_curve_is_name(name))
 		return spec_error_set(error, SPEC_EUSAGE,
 			"--from-rgb is for images and colours ('#ff8000', 'rgb:1,0.5,0'), not "
@@ -334,14 +349,14 @@ take_curve(const struct job *job, const char *name, struct spec_curve *curve,
 				 : status;
 }
 
-/* A curve after --grid, --multiply and --scale. */
+/* A colour's spectrum after --grid, --multiply and --scale. */
 static enum spec_status
-load_curve(const struct job *job, const char *name, struct spec_curve *curve,
+load_colour(const struct job *job, const char *name, struct spec_curve *curve,
 	struct spec_error *error)
 {
 	const struct spec_curve *factor = job->setup.multiply;
 	struct spec_curve next;
-	enum spec_status status = take_curve(job, name, curve, error);
+	enum spec_status status = take_colour(job, name, curve, error);
 
 	for (size_t i = 0; i < job->setup.multiplies && status == SPEC_OK; i++) {
 		status = spec_curve_multiply(curve, &factor[i], &next, error);
@@ -407,6 +422,9 @@ check_curve_options(const struct job *job, struct spec_error *error)
 		return spec_error_set(error, SPEC_EUSAGE,
 			"one curve at a time, or an image of them (--patches, or -o "
 			"FILE.exr)");
+	if (!job->text && job->has_to)
+		return spec_error_set(error, SPEC_EUSAGE,
+			"--to makes text, and the output is an image (-o FILE.spd)");
 	return job->inputs > MOST_CURVES ? spec_error_set(error, SPEC_ERANGE,
 						   "more than %d curves", MOST_CURVES)
 					 : SPEC_OK;
@@ -415,17 +433,30 @@ check_curve_options(const struct job *job, struct spec_error *error)
 static enum spec_status
 convert_curves(struct job *job, int argc, char **argv, struct spec_error *error)
 {
+	struct spec_reshape reshape = {job->setup.multiply, job->setup.multiplies,
+		job->setup.scale, job->setup.grid, job->setup.extrapolate,
+		job->has_interpolate, job->interpolate};
 	enum spec_status status = settle_format(job, 1, error);
 	struct spec_curve *curve;
 
 	if (status == SPEC_OK)
 		status = check_curve_options(job, error);
+	if (status == SPEC_OK && job->has_to && job->from_rgb)
+		return spec_error_set(error, SPEC_EUSAGE,
+			"--from-rgb and --to exclude each other: specconvert --from-rgb ... | "
+			"specconvert --to ...");
+	if (status == SPEC_OK && job->has_to)
+		return spec_reshape_save(
+			job->input[0], &reshape, &job->to, job->settings.output, error);
 	if (status != SPEC_OK)
 		return status;
 	curve = spec_memory_new(job->inputs, sizeof *curve, "curves", error);
 	status = curve ? SPEC_OK : SPEC_ENOMEM;
 	for (size_t i = 0; i < job->inputs && status == SPEC_OK; i++)
-		status = load_curve(job, job->input[i], &curve[i], error);
+		status = job->from_rgb
+				 ? load_colour(job, job->input[i], &curve[i], error)
+				 : spec_reshape_curve(
+					   job->input[i], &reshape, &curve[i], error);
 	if (status == SPEC_OK)
 		status = job->text ? spec_spd_save(job->settings.output, &curve[0], error)
 				   : write_chart(job, curve, argc, argv, error);
@@ -494,6 +525,9 @@ convert_image(struct job *job, int argc, char **argv, struct spec_error *error)
 	struct spec_reader *reader = NULL;
 	enum spec_status status;
 
+	if (job->has_interpolate)
+		return spec_error_set(error, SPEC_EUSAGE,
+			"--interp is for curves, '%s' is an image", job->input[0]);
 	if (job->patches.columns > 0)
 		return spec_error_set(error, SPEC_EUSAGE,
 			"--patches is for curves, '%s' is an image", job->input[0]);

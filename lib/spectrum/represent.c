@@ -350,8 +350,9 @@ to_composite(const struct spec_spectrum *source,
 
 	if (source->lines > representation->count)
 		return spec_error_set(error, SPEC_ERANGE,
-			"'%.200s' has %zu lines, more than the %zu asked for",
-			source->title, source->lines, representation->count);
+			"'%.200s' has %zu line%s, more than the %zu asked for",
+			source->title, source->lines, source->lines == 1 ? "" : "s",
+			representation->count);
 	status = spec_spectrum_copy(source, &split, error);
 	if (status == SPEC_OK && source->lines == 0 && source->wavelength_nm)
 		status = split_lines(&split, representation->count, error);

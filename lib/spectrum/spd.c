@@ -234,18 +234,31 @@ spec_spd_write_texts(FILE *file, const struct spec_curve *curve)
 			fprintf(file, "# %s: %s\n", keys[i], texts[i]);
 }
 
+void
+spec_spd_write_rule(
+	FILE *file, enum spec_spectrum_kind kind, enum spec_interpolate interpolate)
+{
+	if (kind != SPEC_SPECTRUM_TABULATED)
+		fprintf(file, "# representation: %s\n", spec_spectrum_kind_name(kind));
+	if (interpolate != SPEC_INTERPOLATE_LINEAR)
+		fprintf(file, "# interpolation: %s\n", spec_interpolate_name(interpolate));
+}
+
 static void
-write_header(FILE *file, const struct spec_curve *curve)
+write_header(FILE *file, const struct spec_curve *curve, enum spec_spectrum_kind kind,
+	enum spec_interpolate interpolate)
 {
 	spec_spd_write_texts(file, curve);
+	spec_spd_write_rule(file, kind, interpolate);
 	fputs("# columns: " FIRST_COLUMN, file);
 	for (size_t i = 0; i < curve->columns; i++)
 		fprintf(file, " %s", curve->column[i]);
 	fputc('\n', file);
 }
 
-enum spec_status
-spec_spd_write(FILE *file, const struct spec_curve *curve, struct spec_error *error)
+static enum spec_status
+write_as(FILE *file, const struct spec_curve *curve, enum spec_spectrum_kind kind,
+	enum spec_interpolate interpolate, struct spec_error *error)
 {
 	enum spec_status status = spec_spd_check_texts(curve, error);
 	char text[SPEC_SPD_NUMBER];
@@ -255,7 +268,7 @@ spec_spd_write(FILE *file, const struct spec_curve *curve, struct spec_error *er
 	if (status != SPEC_OK)
 		return status;
 	errno = 0;
-	write_header(file, curve);
+	write_header(file, curve, kind, interpolate);
 	for (size_t i = 0; i < curve->count && !ferror(file); i++) {
 		spec_spd_format_number(curve->wavelength_nm[i], text);
 		fputs(text, file);
@@ -272,14 +285,30 @@ spec_spd_write(FILE *file, const struct spec_curve *curve, struct spec_error *er
 }
 
 enum spec_status
+spec_spd_write(FILE *file, const struct spec_curve *curve, struct spec_error *error)
+{
+	return write_as(
+		file, curve, SPEC_SPECTRUM_TABULATED, SPEC_INTERPOLATE_LINEAR, error);
+}
+
+enum spec_status
 spec_spd_save(const char *path, const struct spec_curve *curve, struct spec_error *error)
+{
+	return spec_spd_save_as(
+		path, curve, SPEC_SPECTRUM_TABULATED, SPEC_INTERPOLATE_LINEAR, error);
+}
+
+enum spec_status
+spec_spd_save_as(const char *path, const struct spec_curve *curve,
+	enum spec_spectrum_kind kind, enum spec_interpolate interpolate,
+	struct spec_error *error)
 {
 	struct spec_text text;
 	enum spec_status status = spec_text_open(&text, error);
 
 	if (status != SPEC_OK)
 		return status;
-	status = spec_spd_write(text.stream, curve, error);
+	status = write_as(text.stream, curve, kind, interpolate, error);
 	if (status == SPEC_OK)
 		status = spec_text_close(&text, error);
 	if (status == SPEC_OK)

@@ -59,4 +59,13 @@ enum spec_status spec_spd_check_texts(
 /* The header's lines but for the columns'. */
 void spec_spd_write_texts(FILE *file, const struct spec_curve *curve);
 
+/* The lines of the header that name a kind and what lies between its rows. */
+void spec_spd_write_rule(
+	FILE *file, enum spec_spectrum_kind kind, enum spec_interpolate interpolate);
+
+/* As spec_spd_save, of a curve that is tabulated or sampled, with that between its rows. */
+enum spec_status spec_spd_save_as(const char *path, const struct spec_curve *curve,
+	enum spec_spectrum_kind kind, enum spec_interpolate interpolate,
+	struct spec_error *error);
+
 #endif

@@ -208,12 +208,8 @@ write_header(FILE *file, const struct spec_spectrum *spectrum)
 	const char *columns = spec_spd_columns(spectrum->smooth);
 	double range_nm[] = {spectrum->low_nm, spectrum->high_nm};
 
-	if (columns || spectrum->smooth == SPEC_SPECTRUM_SAMPLED)
-		fprintf(file, "# representation: %s\n",
-			spec_spectrum_kind_name(spectrum->smooth));
-	if (!columns && spectrum->interpolate != SPEC_INTERPOLATE_LINEAR)
-		fprintf(file, "# interpolation: %s\n",
-			spec_interpolate_name(spectrum->interpolate));
+	spec_spd_write_rule(file, spectrum->smooth,
+		columns ? SPEC_INTERPOLATE_LINEAR : spectrum->interpolate);
 	if (spectrum->smooth == SPEC_SPECTRUM_FOURIER) {
 		fputs("# range: ", file);
 		write_numbers(file, range_nm, 2);

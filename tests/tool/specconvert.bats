@@ -816,3 +816,82 @@ specconvert --crop 0,0,1,1 b.exr -o c.exr  # spectools $version
   fails_cleanly specconvert --grid 500:600:25 a.exr -o b.exr
   specconvert --scale 2 a.exr -o b.exr
 }
+
+# ---- representations ----
+
+# energy FILE: the integral of a curve that is linear between its rows.
+energy() {
+  specconvert -f spd "$1" | awk '!/^#/ { if (n++) sum += ($1 - nm) * ($2 + value) / 2; nm = $1; value = $2 } END { printf "%.6f\n", sum }'
+}
+
+@test "a lamp keeps its energy in every representation" {
+  specconvert F2 >table.spd
+  energy table.spd >wanted
+  for kind in composite:4 composite:4,9 fourier:201 sampled:380:780:5 tabulated; do
+    specconvert --to "$kind" F2 -o "$kind.spd"
+    specconvert --to tabulated "$kind.spd" -o back.spd
+    energy back.spd >found
+    [ "$kind" = fourier:201 ] || cmp found wanted || complain "$kind: $(cat found)"
+  done
+  # The series' energy is a0 / 2 times its range: that of its samples is to their trapezoids.
+  a0=$(awk '$1 == "0" { print $2 }' fourier:201.spd)
+  awk -v a0="$a0" '{ exit !(a0 * 200 - $1 < 1e-6 * $1 && $1 - a0 * 200 < 1e-6 * $1) }' wanted
+}
+
+@test "lines are named by --to composite and survive --multiply and --scale" {
+  printf '%s\n' '# title: lamp' '400 1' '500 1' '500.5 1' '501 31' '501.5 1' '502 1' '700 1' >lamp.spd
+  printf '%s\n' '# title: filter' '# quantity: transmittance' '400 0' '600 1' '800 1' >filter.spd
+  specconvert --to composite:2 lamp.spd -o lines.spd
+  [ "$(grep ^line lines.spd)" = 'line 501 15' ] || complain "$(cat lines.spd)"
+  specconvert --to composite:2 --scale 2 --multiply filter.spd lines.spd -o product.spd
+  [ "$(grep ^line product.spd)" = 'line 501 15.15' ] || complain "$(cat product.spd)"
+  grep -qx '# title: lamp times filter' product.spd
+  specconvert --to composite:2 - <lines.spd | cmp - lines.spd
+  fails_cleanly specconvert --to composite:0 lines.spd
+  [[ $stderr = *"'lamp' has 1 line, more than the 0 asked for" ]] || complain "$stderr"
+}
+
+@test "a spectrum of another kind is read as a curve wherever one is wanted" {
+  printf '%s\n' '# representation: fourier' '# range: 400 700' '0 2 0' '1 .5 0' >series.spd
+  [ "$(specconvert series.spd | grep -vc '^#')" = 301 ]
+  specconvert -g 400:700:150 series.spd | grep -v '^#' >found
+  printf '%s\n' '400 1.5' '550 0.5' '700 1.5' | cmp - found || complain "$(cat found)"
+  specconvert -g 400:700:100 15-red -o red.exr
+  specconvert --illuminate series.spd red.exr -o lit.exr
+  has_channels lit.exr S0.400,000000nm S0.500,000000nm S0.600,000000nm S0.700,000000nm
+}
+
+@test "--interp says what lies between the rows" {
+  printf '%s\n' '400 0 5' '410 1 5' '420 8 5' '430 27 5' '440 64 5' '450 125 5' '460 216 5' >cubes.spd
+  check() {
+    specconvert --interp "$1" -g 422.5:425:2.5 cubes.spd | grep -v '^#' >found
+    printf '%s\n' "${@:2}" | cmp - found || complain "$1:" "$(cat found)"
+  }
+  check linear '422.5 12.75 5' '425 17.5 5'
+  check nearest '422.5 8 5' '425 27 5'
+  check left '422.5 8 5' '425 8 5'
+  specconvert --interp sprague -g 422.5:425:2.5 cubes.spd | grep -v '^#' |
+    awk '{ x = ($1 - 400) / 10; if ($2 - x ^ 3 > 1e-12 || x ^ 3 - $2 > 1e-12 || $3 != 5) exit 1; n++ } END { exit n != 2 }'
+  # It is written where the rows stay, and holds for who reads them.
+  specconvert --interp left --to tabulated cubes.spd -o left.spd
+  grep -qx '# interpolation: left' left.spd
+  specconvert -g 422.5:425:2.5 left.spd | grep -v '^#' >found
+  printf '%s\n' '422.5 8 5' '425 8 5' | cmp - found
+}
+
+@test "what --to and --interp cannot do is said" {
+  spectral a.exr
+  wrong() {
+    fails_cleanly specconvert "${@:2}" || return 1
+    [[ $stderr = *"$1"* ]] || complain "$stderr"
+  }
+  wrong 'is not sampled:LO:HI:STEP, tabulated, fourier:N' --to wavelet:3 F2
+  wrong 'odd number of coefficients' --to fourier:8 F2
+  wrong "'Au' has 2 columns" --to fourier:9 Au
+  wrong 'is not linear, nearest, left or sprague' --interp cubic F2
+  wrong "Sprague's interpolation needs equidistant samples" --interp sprague -g 400:410:5 Ag
+  wrong 'covers 380..780 nm, not 300 nm' --to sampled:300:700:100 F2
+  wrong '--to makes text' --to tabulated F2 -o a2.exr
+  wrong 'are for curves' --to tabulated a.exr
+  wrong 'are for curves' --interp left a.exr
+}
