@@ -19,11 +19,11 @@ spec_series_at(const struct spec_series *series, double nm)
 	double turn = (nm - series->low_nm) / (series->high_nm - series->low_nm);
 	double sum = .5 * series->coefficient[0];
 
-	for (size_t i = 1; i + 1 < series->count; i += 2) {
-		double at = angle((double)(i / 2 + 1), turn);
+	for (size_t n = 1; n <= series->count / 2; n++) {
+		double at = angle((double)n, turn);
 
-		sum += series->coefficient[i] * cos(at) +
-		       series->coefficient[i + 1] * sin(at);
+		sum += series->coefficient[2 * n - 1] * cos(at) +
+		       series->coefficient[2 * n] * sin(at);
 	}
 	return sum;
 }
@@ -37,12 +37,12 @@ spec_series_mean(const struct spec_series *series, double a_nm, double b_nm)
 	double sum = .5 * series->coefficient[0];
 
 	/* The mean of cos(n u) is cos(n u) in the middle, times sin(x) / x. */
-	for (size_t i = 1; i + 1 < series->count; i += 2) {
-		double n = (double)(i / 2 + 1), at = angle(n, turn), x = TWO_PI * n * half;
+	for (size_t n = 1; n <= series->count / 2; n++) {
+		double at = angle((double)n, turn), x = TWO_PI * (double)n * half;
 		double part = x > 1e-8 ? sin(x) / x : 1;
 
-		sum += part * (series->coefficient[i] * cos(at) +
-				      series->coefficient[i + 1] * sin(at));
+		sum += part * (series->coefficient[2 * n - 1] * cos(at) +
+				      series->coefficient[2 * n] * sin(at));
 	}
 	return sum;
 }
@@ -55,12 +55,12 @@ spec_series_add_piece(const struct spec_piece *piece, double low_nm, double high
 
 	coefficient[0] +=
 		2 / range_nm * piece->coefficient[0] * (piece->to_nm - piece->from_nm);
-	for (size_t i = 1; i + 1 < count; i += 2) {
-		double k_per_nm = TWO_PI * (double)(i / 2 + 1) / range_nm;
+	for (size_t n = 1; n <= count / 2; n++) {
+		double k_per_nm = TWO_PI * (double)n / range_nm;
 
 		spec_piece_transform(piece, k_per_nm, low_nm, &cosine, &sine);
-		coefficient[i] += 2 / range_nm * cosine;
-		coefficient[i + 1] += 2 / range_nm * sine;
+		coefficient[2 * n - 1] += 2 / range_nm * cosine;
+		coefficient[2 * n] += 2 / range_nm * sine;
 	}
 }
 
@@ -72,11 +72,11 @@ spec_series_add_line(double wavelength_nm, double weight, double low_nm, double 
 	double turn = (wavelength_nm - low_nm) / range_nm;
 
 	coefficient[0] += share;
-	for (size_t i = 1; i + 1 < count; i += 2) {
-		double at = angle((double)(i / 2 + 1), turn);
+	for (size_t n = 1; n <= count / 2; n++) {
+		double at = angle((double)n, turn);
 
-		coefficient[i] += share * cos(at);
-		coefficient[i + 1] += share * sin(at);
+		coefficient[2 * n - 1] += share * cos(at);
+		coefficient[2 * n] += share * sin(at);
 	}
 }
 

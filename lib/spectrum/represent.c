@@ -19,11 +19,12 @@ spec_spectrum_grid(
 	const struct spec_spectrum *spectrum, size_t *count, struct spec_error *error)
 {
 	double low_nm, high_nm, steps, *nm;
+	size_t waves = spectrum->count / 2;
 
 	spec_spectrum_range(spectrum, &low_nm, &high_nm);
 	steps = fmax(ceil((high_nm - low_nm) / STEP_NM - END_SLACK), 1);
 	if (spectrum->smooth == SPEC_SPECTRUM_FOURIER)
-		steps = fmax(steps, WAVE_STEPS * (double)(spectrum->count / 2));
+		steps = fmax(steps, WAVE_STEPS * (double)waves);
 	steps = fmin(steps, MOST_STEPS);
 	*count = spectrum->wavelength_nm ? spectrum->count : (size_t)steps + 1;
 	nm = spec_memory_new(*count, sizeof *nm, "wavelengths", error);
@@ -209,10 +210,11 @@ transform_values(const struct spec_spectrum *source, enum spec_extrapolate extra
 	size_t count, struct spec_error *error)
 {
 	double pieces = ceil((b_nm - a_nm) / STEP_NM);
+	size_t waves = source->count / 2;
 	enum spec_status status = SPEC_OK;
 
 	if (source->smooth == SPEC_SPECTRUM_FOURIER)
-		pieces = fmax(pieces, WAVE_STEPS * (double)(source->count / 2));
+		pieces = fmax(pieces, WAVE_STEPS * (double)waves);
 	for (double i = 0; i < pieces && status == SPEC_OK; i++) {
 		struct spec_piece piece = {a_nm + (b_nm - a_nm) * (i / pieces),
 			a_nm + (b_nm - a_nm) * ((i + 1) / pieces), 6, {0}};
