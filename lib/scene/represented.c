@@ -117,7 +117,6 @@ clamp_series(const struct reading *reading, struct spec_spectrum *spectrum)
 	if (status == SPEC_OK)
 		status = spec_spectrum_clamp(
 			spectrum, least, most, &clamped, arguments->error);
-	spectrum->lines = lines;
 	if (status != SPEC_OK)
 		return status;
 	status = spec_spectrum_add_lines(&clamped, spectrum->line, lines, arguments->error);

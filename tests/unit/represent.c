@@ -285,6 +285,23 @@ lines_come_back_from_samples(void **state)
 	spec_spectrum_free(&back);
 }
 
+/* A peak must rise by a tenth of what it stands on. */
+static void
+small_bumps_are_no_lines(void **state)
+{
+	struct spec_spectrum table = sample(cubic, 5, SPEC_INTERPOLATE_LINEAR), split;
+
+	(void)state;
+	table.value[20] *= 1.09;
+	table.value[40] *= 1.11;
+	split = convert(&table, TO(.kind = SPEC_SPECTRUM_COMPOSITE, .count = 9));
+	assert_int_equal(split.lines, 1);
+	assert_true(split.line[0].wavelength_nm == 560);
+	assert_true(split.value[20] == table.value[20]);
+	spec_spectrum_free(&split);
+	spec_spectrum_free(&table);
+}
+
 /* Smooth things have no lines: hills, ramps, and hills in coarse samples. */
 static void
 hills_are_no_lines(void **state)
@@ -383,6 +400,29 @@ conversions_keep_energy(void **state)
 	result = convert(&source, TO(.kind = SPEC_SPECTRUM_CONSTANT));
 	near(result.level, 265 / 470., 1e-14, "constant");
 	spec_spectrum_free(&result);
+	spec_spectrum_free(&source);
+}
+
+/* 1.1 nm of 5 beyond a sample: shared, or where a reader of that rule would look for it. */
+static void
+lines_go_where_they_are_read(void **state)
+{
+	static const struct spec_line line = {546.1, 30};
+	static const double wanted[][2] = {{30 * .78 / 5, 30 * .22 / 5}, {6, 0}, {6, 0}};
+	struct spec_spectrum source, result;
+
+	(void)state;
+	spec_spectrum_constant(0, &source, NULL);
+	spec_spectrum_add_lines(&source, &line, 1, NULL);
+	for (int i = 0; i < 3; i++) {
+		result = convert(&source,
+			TO(.kind = SPEC_SPECTRUM_SAMPLED, .low_nm = 380, .high_nm = 780,
+				.count = 81, .interpolate = (enum spec_interpolate)i));
+		near(result.value[33], wanted[i][0], 1e-12, "at 545 nm");
+		near(result.value[34], wanted[i][1], 1e-12, "at 550 nm");
+		near(value_at(&result, 546.1) > value_at(&result, 551), 1, 0, "is read");
+		spec_spectrum_free(&result);
+	}
 	spec_spectrum_free(&source);
 }
 
@@ -515,9 +555,11 @@ main(void)
 		cmocka_unit_test(functions_have_series),
 		cmocka_unit_test(spikes_above_cubic_are_found),
 		cmocka_unit_test(lines_come_back_from_samples),
+		cmocka_unit_test(small_bumps_are_no_lines),
 		cmocka_unit_test(hills_are_no_lines),
 		cmocka_unit_test(lamps_have_mercurys_lines),
 		cmocka_unit_test(conversions_keep_energy),
+		cmocka_unit_test(lines_go_where_they_are_read),
 		cmocka_unit_test(lines_at_ends_keep_energy),
 		cmocka_unit_test(texts_and_curves),
 		cmocka_unit_test(asking_has_a_syntax),
