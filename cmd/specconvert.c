@@ -15,6 +15,7 @@
 #include "image/convert.h"
 #include "image/fromrgb.h"
 #include "image/patches.h"
+#include "image/represented.h"
 #include "image/writer.h"
 #include "spectrum/lookup.h"
 #include "spectrum/product.h"
@@ -518,6 +519,30 @@ convert_colours(struct job *job, struct spec_reader *reader, int argc, char **ar
 	return status;
 }
 
+/* Coefficients or lines in place of bands; bands are what every reader gives. */
+static enum spec_status
+convert_representation(struct job *job, struct spec_reader *reader, int argc, char **argv,
+	struct spec_error *error)
+{
+	if (changes_image(job))
+		return spec_error_set(error, SPEC_EUSAGE,
+			"change the image first, then its representation: specconvert ... | "
+			"specconvert --to ...");
+	if (job->settings.format && strcmp(job->settings.format, "exr") != 0)
+		return spec_error_set(error, SPEC_EUSAGE,
+			"only OpenEXR files hold other representations than bands");
+	return spec_represented_run(reader, &job->to, &job->settings, argc, argv,
+		&job->overflows, error);
+}
+
+/* Whether --to asks an image for something else than the bands that it has anyway. */
+static int
+leaves_bands(const struct job *job)
+{
+	return job->has_to && (job->to.kind == SPEC_SPECTRUM_FOURIER ||
+				      job->to.kind == SPEC_SPECTRUM_COMPOSITE);
+}
+
 static enum spec_status
 convert_image(struct job *job, int argc, char **argv, struct spec_error *error)
 {
@@ -531,6 +556,10 @@ convert_image(struct job *job, int argc, char **argv, struct spec_error *error)
 	if (job->patches.columns > 0)
 		return spec_error_set(error, SPEC_EUSAGE,
 			"--patches is for curves, '%s' is an image", job->input[0]);
+	if (job->has_to && job->to.kind == SPEC_SPECTRUM_SAMPLED && job->to.count > 0)
+		return spec_error_set(error, SPEC_EUSAGE,
+			"of an image, --to sampled has the image's own bands; --grid changes "
+			"them");
 	status = settle_format(job, 0, error);
 	if (status == SPEC_OK && job->inputs > 1)
 		status = spec_reader_open_list(
@@ -541,6 +570,8 @@ convert_image(struct job *job, int argc, char **argv, struct spec_error *error)
 		status = image_to_text(job, reader, error);
 	} else if (status == SPEC_OK && job->from_rgb) {
 		status = convert_colours(job, reader, argc, argv, error);
+	} else if (status == SPEC_OK && leaves_bands(job)) {
+		status = convert_representation(job, reader, argc, argv, error);
 	} else if (status == SPEC_OK) {
 		status = spec_convert_plan(&convert, spec_reader_image(reader), &job->setup,
 			spec_reader_name(reader), error);

@@ -26,7 +26,7 @@ struct spec_representation {
 };
 
 /*
- * "sampled:LO:HI:STEP", "tabulated", "fourier:N", "composite:K" or "composite:K,N". No
+ * "sampled", "sampled:LO:HI:STEP", "tabulated", "fourier:N", "composite:K" or "composite:K,N". No
  * range but that of samples; the other members stay what they are. SPEC_EUSAGE: another
  * text; SPEC_ERANGE: numbers out of range.
  */

@@ -81,6 +81,12 @@ spec_representation_parse(const char *text, struct spec_representation *represen
 	representation->kind = SPEC_SPECTRUM_TABULATED;
 	if (strcmp(text, "tabulated") == 0)
 		return SPEC_OK;
+	if (strcmp(text, "sampled") == 0) {
+		representation->kind = SPEC_SPECTRUM_SAMPLED;
+		representation->low_nm = representation->high_nm = 0;
+		representation->count = 0;
+		return SPEC_OK;
+	}
 	if (strncmp(text, "sampled:", 8) == 0)
 		return parse_sampled(text + 8, representation, error);
 	if (strncmp(text, "fourier:", 8) == 0 || strncmp(text, "composite:", 10) == 0)
