@@ -23,7 +23,10 @@
  *                            the finer, so that nothing is lost (T 3.1.2), of equal steps
  *                            those of the one that begins lower, drawn on in equal steps
  *   tabulated and a table    at those of both
- *   a table and no table     at the table's
+ *   a table and a constant   at the table's
+ *   sampled and no table     at its own, with its step divided into equal parts that are no
+ *                            wider than the steps of the other's spec_spectrum_grid
+ *   tabulated and no table   at its own, and at such equal steps between the ends
  *   neither                  equal steps, the smaller of what spec_spectrum_grid has
  * in the range that both share under SPEC_EXTRAPOLATE_REFUSE; else over the range of either
  * (T: samples are 0 outside). What has no ends limits and extends nothing. Between its samples

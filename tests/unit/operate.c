@@ -271,6 +271,43 @@ tables_have_the_wavelengths_of_both(void **state)
 	spec_spectrum_free(&two);
 }
 
+/* What has no samples is looked at closely, also between those of a coarse table. */
+static void
+tables_and_functions_lose_nothing(void **state)
+{
+	static const double nm[] = {300, 650, 800}, value[] = {1, .5, 0},
+			    wave[] = {2, .5, 0};
+	struct spec_spectrum table, series, samples = sampled(400, 700, 11, 1, .1),
+					    level = constant(2), r;
+
+	(void)state;
+	spec_spectrum_tabulated(nm, value, 3, 0, &table, NULL);
+	spec_spectrum_fourier(420, 720, wave, 3, &series, NULL);
+	r = combine(&table, SPEC_MULTIPLY, &series, SPEC_EXTRAPOLATE_REFUSE);
+	assert_int_equal(r.smooth, SPEC_SPECTRUM_TABULATED);
+	assert_true(r.low_nm == 420 && r.high_nm == 720 && r.count == 301);
+	near(value_at(&r, 500), value_at(&table, 500) * value_at(&series, 500), 1e-14,
+		"tabulated");
+	spec_spectrum_free(&r);
+	r = combine(&series, SPEC_MULTIPLY, &samples, SPEC_EXTRAPOLATE_REFUSE);
+	assert_int_equal(r.smooth, SPEC_SPECTRUM_SAMPLED);
+	assert_true(r.low_nm == 420 && r.high_nm == 700 && r.count == 281);
+	near(value_at(&r, 517), value_at(&samples, 517) * value_at(&series, 517), 1e-14,
+		"sampled");
+	spec_spectrum_free(&r);
+	/* A constant asks for nothing. */
+	r = combine(&samples, SPEC_ADD, &level, SPEC_EXTRAPOLATE_REFUSE);
+	assert_int_equal(r.count, 11);
+	spec_spectrum_free(&r);
+	r = combine(&level, SPEC_RAISE, &table, SPEC_EXTRAPOLATE_REFUSE);
+	assert_int_equal(r.count, 3);
+	spec_spectrum_free(&r);
+	spec_spectrum_free(&table);
+	spec_spectrum_free(&series);
+	spec_spectrum_free(&samples);
+	spec_spectrum_free(&level);
+}
+
 /* ---- Fourier ---- */
 
 static void
@@ -570,6 +607,7 @@ main(void)
 		cmocka_unit_test(finer_samples_rule),
 		cmocka_unit_test(equal_steps_have_one_origin),
 		cmocka_unit_test(tables_have_the_wavelengths_of_both),
+		cmocka_unit_test(tables_and_functions_lose_nothing),
 		cmocka_unit_test(products_of_series_agree_with_samples),
 		cmocka_unit_test(lines_are_multiplied_by_what_is_smooth),
 		cmocka_unit_test(composites_cross),
