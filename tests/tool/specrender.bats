@@ -668,3 +668,19 @@ wrong_at() {
   [[ $stderr == *"a.pbrt:5:24: 'L' of "*'is light and -0.5 at 550 nm; it is clamped'* ]]
   numbers a.exr | awk '{ if ($2 < 0 || ($1 >= 500 && $2 != 0) || ($1 == 400 && $2 < .7)) exit 1; rows++ } END { exit rows != 5 }'
 }
+
+@test "a light named by a file keeps the file's lines and its series" {
+  printf '%s\n' '# representation: fourier' '# range: 300 800' '0 2 0' 'line 546.07 50' >lamp.spd
+  scene a.pbrt WorldBegin 'LightSource "infinite" "spectrum L" "lamp.spd"'
+  specrender --no-history --grid 545:547:.1 -o a.exr a.pbrt
+  numbers a.exr | awk '
+    { wanted = $1 > 546.05 && $1 < 546.15 ? 501 : 1; if ($2 < wanted - 1e-3 || $2 > wanted + 1e-3) exit 1; rows++ }
+    END { exit rows != 21 }'
+  sed -i s/50/-50/ lamp.spd
+  fails_cleanly specrender --grid 400:700:100 a.pbrt
+  [[ $stderr == *"a.pbrt:5:24: 'L' of "*'has a line of negative weight: -50 at 546.07 nm'* ]] || complain "$stderr"
+  # Where a ratio is wanted, a line has no meaning but in the samples of a curve.
+  printf '%s\n' '# quantity: reflectance' '# representation: fourier' '# range: 300 800' '0 1 0' >wall.spd
+  scene b.pbrt WorldBegin "$lamp" 'Material "diffuse" "spectrum reflectance" "wall.spd"' 'Shape "disk" "float height" 3'
+  render -o b.exr b.pbrt
+}
