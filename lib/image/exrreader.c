@@ -129,6 +129,20 @@ get_windows(struct exr_reader *reader, int part, struct spec_image *image,
 	return SPEC_OK;
 }
 
+/* Whether bad names and attributes are no error: the first is noted. */
+static enum spec_status
+tolerate(const struct exr_reader *reader, enum spec_status status,
+	const struct spec_error *error)
+{
+	struct spec_error *refused = reader->base.refused;
+
+	if (status != SPEC_EFORMAT || !refused)
+		return status;
+	if (refused->status == SPEC_OK)
+		*refused = error ? *error : (struct spec_error){.status = SPEC_EFORMAT};
+	return SPEC_OK;
+}
+
 static enum spec_status
 get_channels(struct exr_reader *reader, int part, struct spec_image *image,
 	struct spec_error *error)
@@ -153,10 +167,11 @@ get_channels(struct exr_reader *reader, int part, struct spec_image *image,
 				"%s: channel '%s' is subsampled", name, entry->name.str);
 		status = spec_image_add_channel(
 			image, entry->name.str, (enum spec_sample)entry->pixel_type, error);
+		if (status != SPEC_OK)
+			spec_error_prefix(error, "%s", name);
+		status = tolerate(reader, status, error);
 		if (status == SPEC_OK)
 			image->channel[image->channels - 1].linear = entry->p_linear;
-		else
-			spec_error_prefix(error, "%s", name);
 	}
 	return status;
 }
@@ -183,6 +198,10 @@ get_image(struct exr_reader *reader, int part, const struct spec_settings *setti
 		status = spec_given_apply(image, settings, reader->base.source.name, error);
 	if (status == SPEC_OK)
 		status = spec_image_index(image, reader->base.source.name, error);
+	if (status == SPEC_EFORMAT && reader->base.refused) {
+		spec_image_clear_index(image);
+		status = tolerate(reader, status, error);
+	}
 	return status;
 }
 
@@ -198,6 +217,17 @@ names_part(exr_const_context_t context, int part, const char *wanted)
 	return spec_number_parse_whole(wanted, 0, 1 << 20, "part", &number, NULL) ==
 		       SPEC_OK &&
 	       number == part;
+}
+
+/* Whether there are bands, be they such that the image has no index. */
+static int
+has_bands(const struct spec_image *image)
+{
+	for (size_t i = 0; i < image->channels; i++) {
+		if (image->channel[i].role != SPEC_ROLE_OTHER)
+			return 1;
+	}
+	return 0;
 }
 
 /* The part that was asked for, else the only one with bands. */
@@ -220,7 +250,7 @@ choose_part(struct exr_reader *reader, const struct spec_settings *settings, int
 			continue;
 		}
 		status = get_image(reader, part, settings, &image, error);
-		if (image.bands > 0 && spectral++ == 0)
+		if (has_bands(&image) && spectral++ == 0)
 			reader->part = part;
 		spec_image_clear(&image);
 	}
@@ -314,6 +344,13 @@ settle_source(struct exr_reader *reader, int parts, struct spec_error *error)
 	enum spec_status status = SPEC_OK;
 
 	exr_get_lineorder(reader->context, reader->part, &order);
+	reader->base.storage.parts = parts;
+	reader->base.storage.part = reader->part;
+	reader->base.storage.increasing = order == EXR_LINEORDER_INCREASING_Y;
+	if (reader->tiled) {
+		reader->base.storage.tile_width = reader->tile_width;
+		reader->base.storage.tile_height = reader->base.chunk_lines;
+	}
 	if (!reader->base.source.seekable &&
 		(reader->tiled || parts > 1 || order != EXR_LINEORDER_INCREASING_Y))
 		status = spec_source_spool(&reader->base.source, error);

@@ -6,8 +6,8 @@
 #include "base/memory.h"
 #include "image/names.h"
 
-static void
-clear_index(struct spec_image *image)
+void
+spec_image_clear_index(struct spec_image *image)
 {
 	free(image->wavelength_nm);
 	free(image->edges_nm);
@@ -32,7 +32,7 @@ spec_image_clear(struct spec_image *image)
 	free(image->channel);
 	free(image->attribute);
 	free(image->part);
-	clear_index(image);
+	spec_image_clear_index(image);
 	*image = (struct spec_image){0};
 }
 
@@ -104,7 +104,7 @@ spec_image_remove_channels(
 {
 	size_t kept = 0;
 
-	clear_index(image);
+	spec_image_clear_index(image);
 	for (size_t i = 0; i < image->channels; i++) {
 		if (goes(&image->channel[i]))
 			free(image->channel[i].name);

@@ -132,6 +132,9 @@ enum spec_status spec_image_add_bands(struct spec_image *image, enum spec_role r
 enum spec_status spec_image_index(
 	struct spec_image *image, const char *name, struct spec_error *error);
 
+/* Forgets the bands: as before spec_image_index. */
+void spec_image_clear_index(struct spec_image *image);
+
 /*
  * The band nearest to a wavelength, of an indexed image with bands; *same: it is that
  * band, which it is within 0.001 nm (names of three and of six decimals agree) but no

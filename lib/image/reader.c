@@ -158,18 +158,23 @@ make_reader(const struct spec_reading_format *format, struct spec_source *source
 	reader->format = format;
 	reader->source = *source;
 	reader->limits = settings->limits;
+	reader->storage = (struct spec_storage){.parts = 1, .increasing = 1};
 	return reader;
 }
 
-/* Opens what make_reader made. */
+/* Opens what make_reader made; refused as in open_any. */
 static enum spec_status
 finish_opening(struct spec_reader **result, struct spec_reader *reader, const char *path,
-	const struct spec_settings *settings, struct spec_error *error)
+	const struct spec_settings *settings, struct spec_error *refused,
+	struct spec_error *error)
 {
 	struct spec_represented represented = {0};
-	enum spec_status status = reader->format->open(reader, path, settings, error);
+	enum spec_status status;
 
-	if (status == SPEC_OK)
+	reader->refused = refused;
+	status = reader->format->open(reader, path, settings, error);
+	reader->refused = NULL;
+	if (status == SPEC_OK && !refused)
 		status = spec_represented_read(
 			&reader->image, reader->source.name, &represented, error);
 	if (status == SPEC_OK && (represented.coefficients > 0 || represented.lines > 0))
@@ -190,9 +195,11 @@ name_source(struct spec_source *source, const char *name, struct spec_error *err
 	return source->name ? SPEC_OK : SPEC_ENOMEM;
 }
 
-enum spec_status
-spec_reader_open(struct spec_reader **result, const char *path,
-	const struct spec_settings *settings, struct spec_error *error)
+/* refused: null, or where bad names and attributes are noted. */
+static enum spec_status
+open_any(struct spec_reader **result, const char *path,
+	const struct spec_settings *settings, struct spec_error *refused,
+	struct spec_error *error)
 {
 	const struct spec_reading_format *format = &spec_reading_picture;
 	struct spec_reader *reader;
@@ -214,7 +221,24 @@ spec_reader_open(struct spec_reader **result, const char *path,
 	if (status != SPEC_OK)
 		return status;
 	reader = make_reader(format, &source, settings, error);
-	return reader ? finish_opening(result, reader, path, settings, error) : SPEC_ENOMEM;
+	return reader ? finish_opening(result, reader, path, settings, refused, error)
+		      : SPEC_ENOMEM;
+}
+
+enum spec_status
+spec_reader_open(struct spec_reader **reader, const char *path,
+	const struct spec_settings *settings, struct spec_error *error)
+{
+	return open_any(reader, path, settings, NULL, error);
+}
+
+enum spec_status
+spec_reader_open_lenient(struct spec_reader **reader, const char *path,
+	const struct spec_settings *settings, struct spec_error *refused,
+	struct spec_error *error)
+{
+	*refused = (struct spec_error){0};
+	return open_any(reader, path, settings, refused, error);
 }
 
 enum spec_status
@@ -237,7 +261,7 @@ spec_reader_open_list(struct spec_reader **result, const char *const *path, size
 		spec_reader_close(reader);
 		return status;
 	}
-	return finish_opening(result, reader, path[0], settings, error);
+	return finish_opening(result, reader, path[0], settings, NULL, error);
 }
 
 void
@@ -274,6 +298,12 @@ const char *
 spec_reader_format(const struct spec_reader *reader)
 {
 	return reader->format->name;
+}
+
+struct spec_storage
+spec_reader_storage(const struct spec_reader *reader)
+{
+	return reader->storage;
 }
 
 int

@@ -26,6 +26,16 @@ enum spec_status spec_reader_open(struct spec_reader **reader, const char *path,
 enum spec_status spec_reader_open_list(struct spec_reader **reader, const char *const *path,
 	size_t count, const struct spec_settings *settings, struct spec_error *error);
 
+/*
+ * As spec_reader_open, for who wants to know what is wrong: names and attributes that
+ * specexr(5) forbids are no error. *refused is what spec_reader_open would have said of
+ * them, or has the status SPEC_OK; where it has not, the image has channels, attributes and
+ * samples, but no bands. Coefficients stay what they are.
+ */
+enum spec_status spec_reader_open_lenient(struct spec_reader **reader, const char *path,
+	const struct spec_settings *settings, struct spec_error *refused,
+	struct spec_error *error);
+
 /* Whether what is at the path, or on standard input, begins as an image that is read here. */
 int spec_reader_recognises(const char *path);
 
@@ -39,6 +49,15 @@ const char *spec_reader_name(const struct spec_reader *reader);
 
 /* The format's name, such as "OpenEXR". */
 const char *spec_reader_format(const struct spec_reader *reader);
+
+/* How the file keeps its pixels. */
+struct spec_storage {
+	int parts, part;             /* how many there are, and which was read, from 0 */
+	int tile_width, tile_height; /* 0, 0: scanlines */
+	int increasing;              /* its lines are in increasing order */
+};
+
+struct spec_storage spec_reader_storage(const struct spec_reader *reader);
 
 /* Lines that are stored, and so decoded, together: 1, 16, 32, or a tile's height. */
 int spec_reader_chunk_lines(const struct spec_reader *reader);

@@ -17,8 +17,10 @@ struct spec_reader {
 	struct spec_source source;
 	struct spec_image image;
 	struct spec_limits limits;
-	int chunk_lines;   /* that are stored, and so decoded, together */
-	size_t line_bytes; /* of one line, as it is stored uncompressed */
+	struct spec_storage storage;
+	struct spec_error *refused; /* while opening: where bad names are noted; or null */
+	int chunk_lines;            /* that are stored, and so decoded, together */
+	size_t line_bytes;          /* of one line, as it is stored uncompressed */
 };
 
 struct spec_buffer {

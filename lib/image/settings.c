@@ -47,20 +47,22 @@ take_limit(struct spec_limits *limits, const char *text, struct spec_error *erro
 		text);
 }
 
+static const struct {
+	const char *name;
+	int number;
+} compressions[] = {{"none", EXR_COMPRESSION_NONE}, {"rle", EXR_COMPRESSION_RLE},
+	{"zips", EXR_COMPRESSION_ZIPS}, {"zip", EXR_COMPRESSION_ZIP},
+	{"piz", EXR_COMPRESSION_PIZ}, {"pxr24", EXR_COMPRESSION_PXR24},
+	{"b44", EXR_COMPRESSION_B44}, {"b44a", EXR_COMPRESSION_B44A}};
+
+enum { COMPRESSIONS = sizeof compressions / sizeof compressions[0] };
+
 enum spec_status
 spec_settings_compression(const char *name, int *compression, struct spec_error *error)
 {
-	static const struct {
-		const char *name;
-		int number;
-	} known[] = {{"none", EXR_COMPRESSION_NONE}, {"rle", EXR_COMPRESSION_RLE},
-		{"zips", EXR_COMPRESSION_ZIPS}, {"zip", EXR_COMPRESSION_ZIP},
-		{"piz", EXR_COMPRESSION_PIZ}, {"pxr24", EXR_COMPRESSION_PXR24},
-		{"b44", EXR_COMPRESSION_B44}, {"b44a", EXR_COMPRESSION_B44A}};
-
-	for (size_t i = 0; i < sizeof known / sizeof known[0]; i++) {
-		if (strcmp(name, known[i].name) == 0) {
-			*compression = known[i].number;
+	for (size_t i = 0; i < COMPRESSIONS; i++) {
+		if (strcmp(name, compressions[i].name) == 0) {
+			*compression = compressions[i].number;
 			return SPEC_OK;
 		}
 	}
@@ -69,6 +71,16 @@ spec_settings_compression(const char *name, int *compression, struct spec_error 
 			"%s compression is not in this version of OpenEXRCore", name);
 	return spec_error_set(error, SPEC_EUSAGE,
 		"unknown compression '%s' (none rle zips zip piz pxr24 b44 b44a)", name);
+}
+
+const char *
+spec_settings_compression_name(int compression)
+{
+	for (size_t i = 0; i < COMPRESSIONS; i++) {
+		if (compressions[i].number == compression)
+			return compressions[i].name;
+	}
+	return NULL;
 }
 
 enum spec_status

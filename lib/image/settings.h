@@ -48,6 +48,9 @@ enum spec_status spec_settings_take(struct spec_settings *settings, const char *
 enum spec_status spec_settings_compression(
 	const char *name, int *compression, struct spec_error *error);
 
+/* The other way round, or null. */
+const char *spec_settings_compression_name(int compression);
+
 /* "X0,Y0,X1,Y1", whole numbers from 0 on. Error (SPEC_EUSAGE): something else. */
 enum spec_status spec_settings_crop(
 	const char *text, struct spec_window *crop, struct spec_error *error);

@@ -7,7 +7,9 @@
 #include "base/memory.h"
 #include "base/number.h"
 
-#define SLACK 1e-6 /* of a step: how far off the grid the upper bound may lie */
+#define SLACK 1e-6   /* of a step: how far off the grid the upper bound may lie */
+#define SAME_NM 1e-3 /* names of six and of three decimals are the same wavelength */
+#define SAME_SHARE 0.01
 
 enum spec_status
 spec_grid_new(size_t count, struct spec_grid *grid, struct spec_error *error)
@@ -128,4 +130,21 @@ spec_grid_free(struct spec_grid *grid)
 		return;
 	free(grid->wavelength_nm);
 	*grid = (struct spec_grid){0};
+}
+
+double
+spec_grid_step(const double *wavelength_nm, size_t count)
+{
+	double step_nm, most_nm;
+
+	if (count < 2)
+		return 0;
+	step_nm = (wavelength_nm[count - 1] - wavelength_nm[0]) / (double)(count - 1);
+	most_nm = fmin(SAME_NM, SAME_SHARE * step_nm);
+	for (size_t i = 1; i + 1 < count; i++) {
+		if (fabs(wavelength_nm[0] + (double)i * step_nm - wavelength_nm[i]) >
+			most_nm * (1 + 1e-6))
+			return 0;
+	}
+	return step_nm;
 }

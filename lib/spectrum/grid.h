@@ -37,6 +37,13 @@ enum spec_status spec_grid_parse(
 enum spec_status spec_grid_copy(
 	const struct spec_grid *source, struct spec_grid *copy, struct spec_error *error);
 
+/*
+ * The step of ascending wavelengths that are a regular grid: none lies farther off it than
+ * 0.001 nm, which names of three decimals agree within, and 1 % of the step. 0: they are
+ * irregular, or fewer than two.
+ */
+double spec_grid_step(const double *wavelength_nm, size_t count);
+
 /* Frees what grid holds and leaves it empty; null or empty is allowed. */
 void spec_grid_free(struct spec_grid *grid);
 
