@@ -28,7 +28,7 @@ endif
 # Debian packages that the build, the tests and the demo need beside gcc, make and git, and
 # those that only lint, bench and fuzz need.
 DEPS = g++ pkg-config libopenexr-dev libdeflate-dev libpng-dev libopenimageio-dev \
-	libembree-dev libcmocka-dev bats openexr mandoc
+	libembree-dev libcmocka-dev bats openexr mandoc jq
 LINTDEPS = clang-format clang-tidy cppcheck shellcheck mandoc
 BENCHDEPS = openimageio-tools
 FUZZDEPS = clang libclang-rt-14-dev

@@ -167,7 +167,8 @@ print_bands(FILE *stream, const struct spec_describe *describe)
 
 /* The kinds of geometry behind a prefix; *lead stands before the first. */
 static int
-print_geometry(FILE *stream, const struct spec_image *image, const char *prefix, const char *lead)
+print_geometry(
+	FILE *stream, const struct spec_image *image, const char *prefix, const char *lead)
 {
 	int any = 0;
 

@@ -77,6 +77,7 @@ struct synthesis {
 	size_t raws, extras, numbers;
 	size_t raw_room, extra_room, number_room;
 	const char *attribute[MOST_ATTRIBUTES];
+	char attribute_kind[MOST_ATTRIBUTES]; /* 'a'ttribute, 'n'umber, 'w'ithout */
 	size_t attributes;
 	enum shape shape;
 	double constant;
@@ -102,6 +103,8 @@ static const struct cli_option options[] = {
 	{0, "uint", "NAME", "another channel, UINT; repeats"},
 	{0, "uint-id", NULL, "as --uint id"},
 	{0, "attribute", "NAME=TEXT", "a string attribute; repeats"},
+	{0, "number", "NAME=VALUE", "a float attribute; repeats"},
+	{0, "without", "NAME", "no such attribute; repeats"},
 	{0, "bins", NULL, "spec:bins half-way between the wavelengths"},
 	{0, "quantity", "TEXT", "spec:quantity"},
 	{0},
@@ -207,10 +210,13 @@ take_list(struct synthesis *synthesis, struct cli *cli)
 	} else if (strcmp(cli->name, "uint-id") == 0) {
 		append(cli, &synthesis->number, &synthesis->numbers,
 			&synthesis->number_room, "id");
-	} else if (strcmp(cli->name, "attribute") == 0) {
-		if (synthesis->attributes == MOST_ATTRIBUTES || !strchr(cli->value, '='))
+	} else if (strcmp(cli->name, "attribute") == 0 ||
+		   strcmp(cli->name, "number") == 0 || strcmp(cli->name, "without") == 0) {
+		if (synthesis->attributes == MOST_ATTRIBUTES ||
+			(cli->name[0] != 'w' && !strchr(cli->value, '=')))
 			cli_usage(
 				cli, "'%s' is not NAME=TEXT, or one too many", cli->value);
+		synthesis->attribute_kind[synthesis->attributes] = cli->name[0];
 		synthesis->attribute[synthesis->attributes++] = cli->value;
 	} else {
 		return 0;
@@ -360,6 +366,23 @@ plan_planes(struct synthesis *synthesis, struct spec_error *error)
 }
 
 static enum spec_status
+set_attribute(struct spec_image *image, const char *name, const char *text, int number,
+	struct spec_error *error)
+{
+	enum spec_status status;
+	double value;
+	float rounded;
+
+	if (!number)
+		return spec_image_set_text(image, name, text, error);
+	status = spec_number_parse(text, -3e38, 3e38, "the attribute", &value, error);
+	rounded = (float)value;
+	return status == SPEC_OK ? spec_image_set_attribute(image, name, "float", &rounded,
+					   sizeof rounded, error)
+				 : status;
+}
+
+static enum spec_status
 set_attributes(struct synthesis *synthesis, struct spec_error *error)
 {
 	struct spec_image *image = &synthesis->image;
@@ -378,8 +401,13 @@ set_attributes(struct synthesis *synthesis, struct spec_error *error)
 		size_t length = strcspn(text, "=");
 		char *name = spec_memory_text(text, length, error);
 
-		status = name ? spec_image_set_text(image, name, text + length + 1, error)
-			      : SPEC_ENOMEM;
+		if (!name)
+			return SPEC_ENOMEM;
+		if (synthesis->attribute_kind[i] == 'w')
+			spec_image_remove_attribute(image, name);
+		else
+			status = set_attribute(image, name, text + length + 1,
+				synthesis->attribute_kind[i] == 'n', error);
 		free(name);
 	}
 	return status;

@@ -6,12 +6,20 @@ load common
 
 # refused FILE [ARGUMENT...]: every tool refuses it, from a file and from a pipe.
 refused() {
-  local file=$1 tool
+  local file=$1 tool code
   shift
   for tool in spec2rgb specconvert; do
     fails_cleanly $tool "$@" "$file" -o out.exr
     fails_cleanly $tool "$@" - -o out.exr < <(cat "$file")
   done
+  fails_cleanly specinfo --statistics "$@" "$file"
+  fails_cleanly specinfo --statistics "$@" - < <(cat "$file")
+  # What is damaged is trouble; what is merely forbidden is found, and makes 1.
+  code=0
+  specinfo --check "$@" "$file" >found 2>err || code=$?
+  [[ $code = 2 && ! -s found && $(wc -l <err) = 1 || $code = 1 && -s found && ! -s err ]] ||
+    complain "specinfo --check: exit $code" "$(cat found err)" || return 1
+  rm found err
   fails_cleanly specdiff "$@" "$file" "$file"
   [ ! -e out.exr ] || complain "a file was left: $*"
 }

@@ -1,0 +1,329 @@
+/* specinfo - what is in spectral images and curves; see specinfo(1). */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/json.h"
+#include "base/memory.h"
+#include "base/output.h"
+#include "base/source.h"
+#include "base/text.h"
+#include "cli/options.h"
+#include "cli/progress.h"
+#include "image/describe.h"
+#include "image/lint.h"
+#include "image/value.h"
+#include "spectrum/lookup.h"
+#include "spectrum/spd.h"
+#include "spectrum/summary.h"
+
+#define EXR_FIRST_BYTE 0x76
+#define EXIT_FINDINGS 1
+#define EXIT_TROUBLE 2
+
+static const struct cli_option options[] = {
+	{0, "json", NULL, "print JSON: an object, or an array of them for several files"},
+	{'s', "statistics", NULL,
+		"min, max, mean, standard deviation, counts of NaN, of\n"
+		"infinities and of negative values; reads all pixels"},
+	{'b', "bands", NULL, "the same for each band, too"},
+	{'c', "check", NULL,
+		"list what is wrong with images, a line for each finding;\n"
+		"reads all pixels"},
+	{0},
+};
+
+static const struct cli_program program = {
+	.name = "specinfo",
+	.arguments = "[OPTION]... [FILE|SPD]...",
+	.summary =
+		"Tell what is in spectral images and in curves, or what is wrong with images. Exit\n"
+		"status: 0 done, 1 --check has found errors or warnings, 2 trouble.",
+	.options = options,
+};
+
+struct job {
+	const struct cli *cli;
+	const char **input;
+	size_t inputs, input_room;
+	int json, statistics, bands, check;
+	struct spec_settings settings;
+	struct spec_text text;
+	struct spec_json writer;
+	size_t told;     /* files that the text tells of */
+	size_t findings; /* errors and warnings */
+};
+
+static enum spec_status
+take_option(struct job *job, const char *name, const char *value, struct spec_error *error)
+{
+	int known;
+
+	if (strcmp(name, "json") == 0)
+		job->json = 1;
+	else if (strcmp(name, "statistics") == 0)
+		job->statistics = 1;
+	else if (strcmp(name, "bands") == 0)
+		job->statistics = job->bands = 1;
+	else if (strcmp(name, "check") == 0)
+		job->check = 1;
+	else
+		return spec_settings_take(&job->settings, name, value, &known, error);
+	return SPEC_OK;
+}
+
+static enum spec_status
+take_input(struct job *job, const char *path, struct spec_error *error)
+{
+	void *list = (void *)job->input;
+	enum spec_status status = spec_memory_grow(&list, &job->input_room, job->inputs + 1,
+		sizeof *job->input, "operands", error);
+
+	job->input = list;
+	if (status != SPEC_OK)
+		return status;
+	for (size_t i = 0; i < job->inputs; i++) {
+		if (strcmp(path, "-") == 0 && strcmp(job->input[i], "-") == 0)
+			return spec_error_set(error, SPEC_EUSAGE,
+				"only one of the files can come from standard input");
+	}
+	job->input[job->inputs++] = path;
+	return SPEC_OK;
+}
+
+static void
+parse(struct cli *cli, struct job *job, struct spec_error *error)
+{
+	spec_settings_init(&job->settings);
+	while (cli_next(cli)) {
+		if (cli->name)
+			cli_check(
+				cli, take_option(job, cli->name, cli->value, error), error);
+		else
+			cli_check(cli, take_input(job, cli->value, error), error);
+	}
+	if (job->check && job->statistics)
+		cli_usage(cli, "--check takes no statistics");
+	if (job->inputs == 0)
+		cli_check(cli, take_input(job, "-", error), error);
+}
+
+static int
+has_suffix(const char *path, const char *suffix)
+{
+	size_t length = strlen(path), end = strlen(suffix);
+
+	return length > end && strcmp(path + length - end, suffix) == 0;
+}
+
+/* A curve is a text file, a name in the spectra folder, or text on standard input. */
+static int
+is_curve(const char *path)
+{
+	int byte;
+
+	if (has_suffix(path, ".spd") || has_suffix(path, ".txt") ||
+		has_suffix(path, ".csv"))
+		return 1;
+	byte = spec_source_peek(path);
+	if (byte == EXR_FIRST_BYTE || has_suffix(path, ".exr"))
+		return 0;
+	if (strcmp(path, "-") == 0 || strncmp(path, "/dev/fd/", 8) == 0)
+		return byte >= 0;
+	return access(path, F_OK) != 0 && path[0] != '/' && path[0] != '.';
+}
+
+static void
+separate(struct job *job)
+{
+	if (!job->json && job->told > 0)
+		fputc('\n', job->text.stream);
+	job->told++;
+}
+
+static enum spec_status
+tell_curve(struct job *job, const char *path, struct spec_error *error)
+{
+	struct spec_curve curve;
+	int standard = strcmp(path, "-") == 0;
+	const char *name = standard ? "<stdin>" : path;
+	enum spec_status status = standard ? spec_spd_read(stdin, name, &curve, error)
+					   : spec_lookup_curve(path, &curve, error);
+
+	if (status != SPEC_OK)
+		return status;
+	separate(job);
+	if (job->json)
+		spec_summary_json(&job->writer, name, &curve);
+	else
+		spec_summary_print(job->text.stream, name, &curve);
+	spec_curve_free(&curve);
+	return SPEC_OK;
+}
+
+/* Statistics of all channels, or, where none are wanted, the pipe's rest. */
+static enum spec_status
+read_pixels(struct job *job, struct spec_reader *reader,
+	struct spec_statistics **statistics, struct spec_error *error)
+{
+	size_t channels = spec_reader_image(reader)->channels;
+	unsigned char *wanted;
+	enum spec_status status = SPEC_ENOMEM;
+
+	if (!job->statistics)
+		return spec_reader_drain(reader, error);
+	wanted = spec_memory_new(channels, 1, "channels", error);
+	*statistics = spec_memory_new(channels, sizeof **statistics, "channels", error);
+	if (wanted && *statistics) {
+		memset(wanted, 1, channels);
+		status = spec_statistics_run(
+			*statistics, reader, wanted, &job->settings, error);
+	}
+	free(wanted);
+	return status;
+}
+
+static enum spec_status
+tell_image(struct job *job, const char *path, struct spec_error *error)
+{
+	struct spec_describe_setup setup = {.format = "OpenEXR", .bands = job->bands};
+	struct spec_describe describe = {0};
+	struct spec_statistics *statistics = NULL;
+	struct spec_reader *reader = NULL;
+	enum spec_status status = spec_reader_open(&reader, path, &job->settings, error);
+
+	if (status == SPEC_OK)
+		status = read_pixels(job, reader, &statistics, error);
+	setup.statistics = statistics;
+	if (status == SPEC_OK)
+		status = spec_describe_find(&describe, reader, &setup, error);
+	if (status == SPEC_OK) {
+		separate(job);
+		if (job->json)
+			spec_describe_json(&job->writer, &describe);
+		else
+			spec_describe_print(job->text.stream, &describe);
+	}
+	spec_describe_free(&describe);
+	free(statistics);
+	spec_reader_close(reader);
+	return status;
+}
+
+static void
+put_findings(struct spec_json *json, const char *name, const struct spec_lint *lint)
+{
+	spec_json_open(json, NULL, '{', SPEC_JSON_LINES);
+	spec_json_text(json, "file", name);
+	spec_json_whole(json, "errors", (long long)lint->count[SPEC_LINT_ERROR]);
+	spec_json_whole(json, "warnings", (long long)lint->count[SPEC_LINT_WARNING]);
+	spec_json_whole(json, "notes", (long long)lint->count[SPEC_LINT_NOTE]);
+	spec_json_open(json, "findings", '[', SPEC_JSON_LINES);
+	for (size_t i = 0; i < lint->findings; i++) {
+		const struct spec_lint_finding *finding = &lint->finding[i];
+
+		spec_json_open(json, NULL, '{', SPEC_JSON_INLINE);
+		spec_json_text(json, "severity", spec_lint_severity(finding->severity));
+		spec_json_text(json, "place", finding->place);
+		spec_json_text(json, "text", finding->text);
+		spec_json_close(json);
+	}
+	spec_json_close(json);
+	spec_json_close(json);
+}
+
+static enum spec_status
+check_image(struct job *job, const char *path, struct spec_error *error)
+{
+	const char *name = strcmp(path, "-") == 0 ? "<stdin>" : path;
+	struct spec_lint lint;
+	enum spec_status status = spec_lint_file(&lint, path, &job->settings, error);
+
+	if (status != SPEC_OK)
+		return status;
+	job->told++;
+	if (job->json)
+		put_findings(&job->writer, name, &lint);
+	for (size_t i = 0; i < lint.findings && !job->json; i++) {
+		const struct spec_lint_finding *finding = &lint.finding[i];
+
+		spec_value_print_text(job->text.stream, name, strlen(name));
+		fprintf(job->text.stream, ": %s: %s: %s\n",
+			spec_lint_severity(finding->severity), finding->place,
+			finding->text);
+	}
+	job->findings += lint.count[SPEC_LINT_ERROR] + lint.count[SPEC_LINT_WARNING];
+	spec_lint_free(&lint);
+	return SPEC_OK;
+}
+
+static enum spec_status
+tell(struct job *job, const char *path, struct spec_error *error)
+{
+	int curve = is_curve(path);
+
+	if (job->check && curve)
+		return spec_error_set(error, SPEC_EUSAGE,
+			"'%s' is a curve, and --check is for images", path);
+	if (job->check)
+		return check_image(job, path, error);
+	return curve ? tell_curve(job, path, error) : tell_image(job, path, error);
+}
+
+/* Trouble with a file is told, and the others follow; without memory nothing does. */
+static int
+tell_all(struct job *job, struct spec_error *error)
+{
+	int trouble = 0;
+
+	for (size_t i = 0; i < job->inputs; i++) {
+		struct cli_progress progress;
+		enum spec_status status;
+
+		cli_progress_start(
+			&progress, "lines", job->settings.progress, job->settings.quiet);
+		job->settings.show = cli_progress_show;
+		job->settings.show_state = &progress;
+		status = tell(job, job->input[i], error);
+		cli_progress_end(&progress);
+		if (status == SPEC_ENOMEM)
+			cli_die(job->cli, error);
+		if (status != SPEC_OK) {
+			fprintf(stderr, "%s: %s\n", program.name, error->message);
+			trouble = 1;
+		}
+	}
+	if (trouble)
+		return EXIT_TROUBLE;
+	return job->findings > 0 ? EXIT_FINDINGS : 0;
+}
+
+int
+main(int argc, char **argv)
+{
+	struct spec_error error = {0};
+	struct cli cli;
+	struct job job = {.cli = &cli};
+	int code;
+
+	cli_start(&cli, &program, argc, argv);
+	parse(&cli, &job, &error);
+	cli_check(&cli, spec_text_open(&job.text, &error), &error);
+	spec_json_start(&job.writer, job.text.stream);
+	if (job.json && job.inputs > 1)
+		spec_json_open(&job.writer, NULL, '[', SPEC_JSON_LINES);
+	code = tell_all(&job, &error);
+	if (job.json && job.inputs > 1)
+		spec_json_close(&job.writer);
+	cli_check(&cli, spec_text_close(&job.text, &error), &error);
+	/* A file that is named appears only when it is complete. */
+	if (job.told > 0 && (code != EXIT_TROUBLE || strcmp(job.settings.output, "-") == 0))
+		cli_check(&cli,
+			spec_output_save(
+				job.settings.output, job.text.bytes, job.text.size, &error),
+			&error);
+	spec_text_free(&job.text);
+	free((void *)job.input);
+	return code;
+}

@@ -1,0 +1,684 @@
+#!/usr/bin/env bats
+# specinfo: what is in a file, as text and as JSON; statistics; and every finding of --check.
+# shellcheck disable=SC2154 # fails_cleanly leaves its line in stderr
+# shellcheck disable=SC2016 # jq's variables
+# shellcheck disable=SC2030,SC2031 # each test is a subshell, and its variables its own
+
+load common
+
+# prints LINE COMMAND...: it is among the lines on stdout, and the exit status is 0.
+prints() {
+  local line=$1 answer
+  shift
+  answer=$("$@") || complain "exit $?: $*" || return 1
+  grep -qxF -e "$line" <<<"$answer" || complain "no line '$line' in:" "$answer"
+}
+
+# value FILTER COMMAND...: what jq makes of the JSON that a command prints.
+value() {
+  local filter=$1
+  shift
+  "$@" >printed.json || complain "exit $?: $*" || return 1
+  jq -cer "$filter" printed.json
+}
+
+# holds FILTER COMMAND...: jq finds it true.
+holds() {
+  [ "$(value "$@")" = true ] || complain "not true: $1" "$(cat printed.json)"
+}
+
+# checks CODE FILE LINE...: --check ends with that status and prints these lines, no others,
+# behind the file's name; from a file and from a pipe.
+checks() {
+  local wanted=$1 file=$2 code=0 answer
+  shift 2
+  answer=$(specinfo --check "$file") || code=$?
+  [ "$code" -eq "$wanted" ] || complain "exit $code instead of $wanted" "$answer" || return 1
+  [ "$answer" = "$([ $# = 0 ] || printf "$file: %s\n" "$@")" ] ||
+    complain "$answer" 'instead of:' "$@" || return 1
+  code=0
+  answer=$(cat "$file" | specinfo --check -) || code=$?
+  [ "$code" -eq "$wanted" ] || complain "pipe: exit $code instead of $wanted" || return 1
+  [ "$answer" = "$([ $# = 0 ] || printf '<stdin>: %s\n' "$@")" ] || complain "pipe: $answer"
+}
+
+# light_of FILE: names of its S0 bands.
+light_of() {
+  channels "$1" | grep '^S0'
+}
+
+# Options and input
+
+@test "help, version, options that are not there" {
+  specinfo --help | grep -q '^usage: specinfo '
+  [[ $(specinfo --version) = 'specinfo (spectools) '* ]]
+  fails_cleanly specinfo --jsno
+  [[ $stderr = *"did you mean '--json'?" ]] || complain "$stderr"
+  fails_cleanly specinfo --check --bands missing.exr
+  fails_cleanly specinfo - -
+}
+
+@test "an image on standard input, named and not" {
+  spectral a.exr
+  prints '  bands         16, 400..700 nm by 20 nm, float' specinfo <a.exr
+  prints '<stdin>' specinfo - < <(cat a.exr)
+  diff <(specinfo -s a.exr | tail -n +2) <(cat a.exr | specinfo -s | tail -n +2)
+}
+
+@test "a pipe is read to its end, so that who writes it is not killed" {
+  spectral a.exr --size 640x480 --compression none
+  set -o pipefail
+  cat a.exr | specinfo >printed
+}
+
+@test "a file that is missing, a folder, a text, nothing" {
+  fails_cleanly specinfo missing.exr
+  [[ $stderr = *missing.exr*'No such file or directory' ]] || complain "$stderr"
+  mkdir folder.exr
+  fails_cleanly specinfo folder.exr
+  echo text >text.exr
+  fails_cleanly specinfo text.exr
+  fails_cleanly specinfo </dev/null
+  fails_cleanly specinfo --check </dev/null
+  fails_cleanly specinfo no-such-spectrum
+}
+
+@test "a file that ends early: in the header, and where pixels are read" {
+  spectral a.exr --size 9x7 --grid 500:540:20 --compression none
+  size=$(wc -c <a.exr)
+  head -c 200 a.exr >header.exr
+  head -c $((size - 1)) a.exr >pixels.exr
+  for option in --json --statistics --check; do
+    fails_cleanly specinfo $option header.exr
+  done
+  specinfo pixels.exr >/dev/null
+  for option in --statistics --bands --check; do
+    fails_cleanly specinfo $option pixels.exr
+    [[ $stderr = *'ends early, in line 6 of 0..6' ]] || complain "$stderr"
+    fails_cleanly specinfo $option < <(cat pixels.exr)
+  done
+}
+
+@test "a full disk, and a closed output" {
+  spectral a.exr
+  code=0
+  specinfo a.exr >/dev/full 2>err || code=$?
+  [ "$code" -eq 2 ]
+  [ "$(cat err)" = "specinfo: unable to write '<stdout>': No space left on device" ]
+  code=0
+  specinfo --check --json a.exr >&- 2>err || code=$?
+  [ "$code" -eq 2 ]
+  [ "$(wc -l <err)" -eq 1 ]
+}
+
+@test "the output in a file" {
+  spectral a.exr
+  specinfo a.exr -o a.txt
+  diff a.txt <(specinfo a.exr)
+  echo old >old.txt
+  fails_cleanly specinfo a.exr missing.exr -o old.txt
+  [ "$(cat old.txt)" = old ]
+}
+
+@test "several files: an empty line between them, and trouble with one is not the others'" {
+  spectral a.exr
+  spectral b.exr --kind T
+  [ "$(specinfo a.exr b.exr D65 | grep -c '^$')" -eq 2 ]
+  code=0
+  specinfo a.exr missing.exr b.exr >printed 2>err || code=$?
+  [ "$code" -eq 2 ]
+  [ "$(wc -l <err)" -eq 1 ]
+  [ "$(grep -c '^[^ ]' printed)" -eq 2 ] || complain "$(cat printed)"
+}
+
+# What is told
+
+@test "all of a plain image" {
+  spectral a.exr --attribute owner=nobody
+  [ "$(specinfo a.exr)" = 'a.exr
+  format        OpenEXR, compression zip
+  size          16 x 8 pixels, 8 KiB uncompressed
+  bands         16, 400..700 nm by 20 nm, float
+  samples       points
+  quantity      radiance per nm [W m^-2 sr^-1 nm^-1]
+  role          emissive
+  names         layout, such as S0.400,000000nm
+  attributes    spectralLayoutVersion  1.0
+                emissiveUnits          W.m^-2.sr^-1
+                owner                  nobody' ] || complain "$(specinfo a.exr)"
+}
+
+@test "windows, bins, samples, channels, history" {
+  spectral a.exr --size 5x3 --data=-2,7 --display 0,0,64,48 --bins --half --extra A --extra Z --uint id \
+    --quantity 'radiance per band' --compression piz
+  prints '  data window   -2,7,3,10' specinfo a.exr
+  prints '  display       0,0,64,48' specinfo a.exr
+  prints '  samples       integrals over bins, 390..710 nm' specinfo a.exr
+  prints '  bands         16, 400..700 nm by 20 nm, half' specinfo a.exr
+  prints '  quantity      radiance per band [W m^-2 sr^-1]' specinfo a.exr
+  prints '  format        OpenEXR, compression piz' specinfo a.exr
+  prints '  geometry      id' specinfo a.exr
+  prints '  channels      float: A Z' specinfo a.exr
+  specconvert --scale 2 a.exr | specconvert --scale "0.5" -o b.exr
+  specinfo b.exr | grep -A1 '^  history       specconvert --scale 2 a.exr  # spectools' |
+    grep '^                specconvert --scale 0.5 -o b.exr  # spectools'
+  holds '.history | length == 2 and (.[0] | startswith("specconvert --scale 2 a.exr  # "))' specinfo --json b.exr
+  holds '.data_window == [-2, 7, 3, 10] and .display_window == [0, 0, 64, 48]' specinfo --json a.exr
+  holds '.edges_nm == [range(390; 711; 20)] and .unit == "W m^-2 sr^-1"' specinfo --json a.exr
+}
+
+@test "grids: irregular, a single band, three decimals" {
+  spectral a.exr --channel S0.400,000000nm --channel S0.410,000000nm --channel S0.700,000000nm
+  prints '  bands         3, 400..700 nm, irregular, float' specinfo a.exr
+  holds '.step_nm == null and .wavelength_nm == [400, 410, 700]' specinfo --json a.exr
+  spectral b.exr --channel T.550nm
+  prints '  bands         1, 550 nm, float' specinfo b.exr
+  spectral c.exr --channel S0.367,344nm --channel S0.382,031nm --channel S0.396,719nm
+  prints '  bands         3, 367.344..396.719 nm by 14.6875 nm, float' specinfo c.exr
+}
+
+@test "the names of other programs" {
+  spectral mitsuba.exr --channel 400.00-410.00nm --channel 410.00-420.00nm
+  prints '  names         mitsuba, such as 400.00-410.00nm' specinfo mitsuba.exr
+  prints '  samples       means over bins, 400..420 nm' specinfo mitsuba.exr
+  spectral iset.exr --channel Radiance.C01 --channel Radiance.C02
+  holds '.naming == "iset3d" and .wavelength_nm == [400, 410]' specinfo --json iset.exr
+  spectral kaist.exr --channel w420nm
+  holds '.naming == "kaist" and .role == "reflective" and .quantity == "reflectance"' specinfo --json kaist.exr
+}
+
+@test "polarised, bispectral, not spectral" {
+  spectral stokes.exr --kind stokes
+  prints '  role          emissive, polarised (S0 S1 S2 S3)' specinfo stokes.exr
+  holds '.stokes == 4 and .bands == 16 and (.channels | length) == 64' specinfo --json stokes.exr
+  spectral bi.exr --channel T.400nm --channel T.500nm --channel T.400nm.500nm
+  prints '  role          reflective, bispectral (1 channels off the diagonal)' specinfo bi.exr
+  holds '.bispectral == 1 and .channels[1].reradiated_nm == 500' specinfo --json bi.exr
+  spectral rgb.exr --channel R --channel G --channel B
+  prints '  bands         none: the image is not spectral' specinfo rgb.exr
+  holds '.bands == 0 and .role == null and .naming == null and .quantity == null and .stokes == 0' specinfo --json rgb.exr
+}
+
+@test "light layers and geometry" {
+  "$TESTS/layers" --scene sphere --size 8x8 --grid 400:700:100 -o films.exr
+  prints '  layers        film1: mirror, P N Ns I cosine Q id cover' specinfo films.exr
+  prints '                film2: mirror, P N Ns I cosine Q id cover' specinfo films.exr
+  prints '                through' specinfo films.exr
+  holds '.layers == ["film1", "film2", "through"] and .geometry == []' specinfo --json films.exr
+  "$TESTS/layers" --scene disc --size 8x8 --grid 400:700:100 -o disc.exr
+  prints '  layers        lamp1: irradiance, D' specinfo disc.exr
+  prints '  geometry      P N Ns Tan I cosine Q id cover' specinfo disc.exr
+  holds '.layers == ["lamp1"] and .geometry[3] == "Tan"' specinfo --json disc.exr
+  spectral bad.exr --grid 400:500:100 --extra film1.mirror.S0.400,000000nm
+  specinfo bad.exr | grep -q "^  layers        unusable: .*no band at 500 nm"
+  holds '.layers == [] and (.layers_error | contains("no band at 500 nm"))' specinfo --json bad.exr
+}
+
+@test "parts and tiles" {
+  spectral one.exr
+  spectral two.exr --channel Y
+  exrmultipart -combine -i two.exr one.exr -o parts.exr >/dev/null
+  prints '  part          1 of 2, counted from 0, named one' specinfo parts.exr
+  holds '.parts == 2 and .part == 0 and .part_name == "two" and .bands == 0' specinfo --json --part two parts.exr
+  exrmaketiled -t 8 4 one.exr tiles.exr
+  prints '  format        OpenEXR, compression zip, tiles of 8 x 4' specinfo tiles.exr
+  holds '.tiles == [8, 4]' specinfo --json tiles.exr
+}
+
+@test "a curve, by name, from a file and from standard input" {
+  prints '  title         CIE standard illuminant D65' specinfo D65
+  prints '  samples       107, 300..830 nm by 5 nm, in air' specinfo D65
+  prints '  samples       45, 203.3..1937 nm, irregular, in vacuum' specinfo Au
+  prints '                k: 1.277 at 203.3 nm to 13.78 at 1937 nm' specinfo Au
+  holds '.format == "spd" and .medium == "vacuum" and .count == 45 and .step_nm == null' specinfo --json Au
+  holds '.columns | map(.name) == ["n", "k"]' specinfo --json Au
+  printf '%s\n' '# title: a "filter"' 400,0.5 500,-1 600,3 >a.spd
+  holds '.title == "a \"filter\"" and .wavelength_nm == [400, 500, 600] and .step_nm == 100' specinfo --json a.spd
+  holds '.columns == [{name: "value", min: -1, min_nm: 500, max: 3, max_nm: 600}]' specinfo --json a.spd
+  prints '  columns       value: -1 at 500 nm to 3 at 600 nm' specinfo <a.spd
+  prints '  samples       1, 400 nm' specinfo < <(echo 400 1)
+  fails_cleanly specinfo --check D65
+  echo 400 x >bad.spd
+  fails_cleanly specinfo bad.spd
+}
+
+# JSON
+
+@test "JSON: an object for a file, an array for several" {
+  spectral a.exr
+  holds 'type == "object" and .file == "a.exr" and .format == "OpenEXR"' specinfo --json a.exr
+  holds 'type == "array" and length == 2 and .[1].format == "spd"' specinfo --json a.exr D65
+  code=0
+  specinfo --json missing.exr a.exr >printed 2>/dev/null || code=$?
+  [ "$code" -eq 2 ]
+  jq -e 'length == 1' printed
+}
+
+@test "JSON is valid whatever the file holds" {
+  printf 'quote " back \\ bell \a tab \t line \n bytes \xff\xfe\xc3(' >value
+  spectral a.exr --attribute "odd\"name=$(cat value)" --extra $'Z\x01"\xff' --quantity $'a\\b\xf0\x9f'
+  specinfo --json --bands a.exr >printed.json
+  python=$(jq -er '.attributes["odd\"name"]' printed.json)
+  [ "$python" = "$(printf 'quote " back \\ bell \a tab \t line \n bytes \xef\xbf\xbd\xef\xbf\xbd\xef\xbf\xbd(')" ]
+  jq -e '.quantity == "a\\b��" and .unit == null' printed.json
+  specinfo a.exr >printed
+  run ! env LC_ALL=C grep -q $'[\x01\a]' printed
+}
+
+@test "attributes are JSON's own types" {
+  spectral a.exr --number EV=15.7456 --attribute text=1
+  holds '.attributes == {spectralLayoutVersion: "1.0", emissiveUnits: "W.m^-2.sr^-1", EV: 15.7456, text: "1"}' \
+    specinfo --json a.exr
+  prints '                EV                     15.7456' specinfo a.exr
+}
+
+# Statistics
+
+# The ramp is ((x + 1) * 0.001 + y * 0.01) + band * 0.1, over 4 x 2 pixels: its mean is 0.0025 + 0.005
+# + band * 0.1, its variance 1.25e-6 + 25e-6 in each band. Rounding to float is below 1e-7.
+@test "statistics are those of the ramp" {
+  spectral a.exr --size 4x2 --grid 400:500:50
+  filter='def near($a; $b): ($a - $b) | fabs < 1e-7;
+    .statistics == [.statistics[0]] and (.statistics[0] |
+      .name == "S0" and .channels == 3 and .samples == 24 and .nan == 0 and .inf == 0 and .negative == 0 and
+      near(.min; 0.001) and near(.max; 0.214) and near(.mean; 0.1075) and near(.deviation; 0.08181025))
+    and (.band_statistics | length == 3 and (to_entries | all(
+      .key as $band | .value | near(.mean; 0.0075 + $band * 0.1) and near(.deviation; 0.005123475) and
+      near(.min; 0.001 + $band * 0.1) and near(.max; 0.014 + $band * 0.1))))'
+  holds "$filter" specinfo --json --bands a.exr
+  holds 'has("band_statistics") | not' specinfo --json --statistics a.exr
+  holds 'has("statistics") | not' specinfo --json a.exr
+}
+
+@test "what is not finite is counted, and in no mean" {
+  spectral a.exr --size 4x2 --grid 400:500:50 --pattern negative --pattern nan:1,1,2 --pattern inf:0,0,2
+  holds '.band_statistics[2] | .nan == 1 and .inf == 1 and .negative == 6 and .samples == 8 and .max < 0' \
+    specinfo --json --bands a.exr
+  holds '.statistics[0] | .nan == 1 and .inf == 1 and .negative == 22' specinfo --json -s a.exr
+  spectral b.exr --size 1x1 --channel T.500nm --pattern nan:0,0,0
+  holds '.statistics[0] | .min == null and .max == null and .mean == null and .deviation == null and .nan == 1' \
+    specinfo --json -s b.exr
+  specinfo -s b.exr | grep -q '^  T  *-  *-  *-  *-  *1  *0  *0$'
+}
+
+@test "each Stokes component, what is bispectral, and other channels have their own" {
+  spectral a.exr --kind stokes --grid 400:500:100 --extra A --uint id
+  [ "$(value '.statistics | map(.name) | join(" ")' specinfo --json -s a.exr)" = 'S0 S1 S2 S3 A' ]
+  holds '.statistics[2] | .min < 0' specinfo --json -s a.exr
+  [ "$(value '.band_statistics | length' specinfo --json -b a.exr)" = 8 ]
+  spectral b.exr --channel T.400nm --channel T.500nm --channel T.400nm.500nm
+  [ "$(value '.statistics | map(.name) | join(", ")' specinfo --json -s b.exr)" = 'T, T off the diagonal' ]
+}
+
+@test "every number of threads gives the same bits, and so does every compression" {
+  spectral a.exr --size 700x301 --grid 400:700:20 --pattern grain --compression zip
+  specinfo -j 1 --json --bands a.exr >one
+  for threads in 2 3 7; do
+    specinfo -j $threads --json --bands a.exr | cmp - one
+  done
+  spectral b.exr --size 700x301 --grid 400:700:20 --pattern grain --compression none
+  diff <(jq -c '[.statistics, .band_statistics]' one) \
+    <(cat b.exr | specinfo --json --bands | jq -c '[.statistics, .band_statistics]')
+}
+
+@test "--limit memory is kept" {
+  spectral a.exr --size 64x64
+  fails_cleanly specinfo --limit memory=1k --statistics a.exr
+  [[ $stderr = *'--limit memory='* ]]
+  fails_cleanly specinfo --limit channels=3 --check a.exr
+}
+
+# Other programs' files, as exrheader sees them
+
+@test "every sample of other programs is told of" {
+  samples
+  while read -r name role stokes bands from to step sample; do
+    holds ".role == \"$role\" and .stokes == $stokes and .bands == $bands and .step_nm == $step and
+      .wavelength_nm[0] == $from and .wavelength_nm[-1] == $to and .edges_nm == null and .naming == \"layout\" and
+      (.channels | map(select(.wavelength_nm) | .sample) | unique == [\"$sample\"])" \
+      specinfo --json "$SAMPLES/$name.exr" || complain "$name"
+    [ "$(value '.channels[].name' specinfo --json "$SAMPLES/$name.exr")" = "$(channels "$SAMPLES/$name.exr")" ]
+    specinfo --json --bands "$SAMPLES/$name.exr" | jq -e '.statistics | all(.nan == 0 and .inf == 0)'
+  done <<'END'
+Macbeth reflective 1 36 380 730 10 float
+D65 emissive 1 90 380 825 5 float
+D65_colour emissive 1 97 300 780 5 half
+BiSpectral reflective 1 41 380 780 10 float
+Polarised emissive 4 8 400 680 40 float
+pbrt-v4_cbox emissive 1 30 405 695 10 float
+END
+  holds '.width == 600 and .height == 400 and .quantity == "reflectance"' specinfo --json "$SAMPLES/Macbeth.exr"
+  holds '.bispectral == 820 and .width == 16' specinfo --json "$SAMPLES/BiSpectral.exr"
+  holds '.attributes.EV | . > 15.7 and . < 15.8' specinfo --json "$SAMPLES/D65_colour.exr"
+  holds '.attributes | .samplesPerPixel == 16 and .worldToCamera[0] == [-1, 0, 0, 278]' \
+    specinfo --json "$SAMPLES/pbrt-v4_cbox.exr"
+  prints '  role          emissive, polarised (S0 S1 S2 S3)' specinfo "$SAMPLES/Polarised.exr"
+  prints '  channels      float: A B G R' specinfo "$SAMPLES/Polarised.exr"
+}
+
+@test "--check of other programs' files finds names with other decimals, and no more" {
+  samples
+  for name in Macbeth D65 BiSpectral Polarised; do
+    [ -z "$(specinfo --check "$SAMPLES/$name.exr")" ]
+  done
+  run specinfo --check "$SAMPLES/D65_colour.exr"
+  [[ $status = 1 && $output = *": warning: S0.300,0nm: is not named 'S0.300,000000nm', as a writer must name it (97 of 97 bands)" ]]
+  [ "${#lines[@]}" -eq 1 ]
+  run specinfo --check "$SAMPLES/pbrt-v4_cbox.exr"
+  [[ $status = 1 && ${lines[0]} = *": warning: S0.405,000nm: "* && ${lines[1]} = *": note: S0.405,000nm: has three decimals"* ]]
+  [ "${#lines[@]}" -eq 2 ]
+}
+
+# --check: nothing to find
+
+@test "--check finds nothing in what the tools and helpers write" {
+  spectral a.exr --pattern constant:0.5 --bins --extra A
+  checks 0 a.exr
+  spectral b.exr --kind T --half --pattern constant:1
+  checks 0 b.exr
+  spectral c.exr --kind stokes --attribute polarisationHandedness=right
+  checks 0 c.exr
+  for scene in flat pair tilted sphere disc; do
+    "$TESTS/layers" --scene $scene --size 16x16 --grid 400:700:100 -o layers.exr
+    checks 0 layers.exr
+  done
+  cp "$ROOT/tests/example.exr" .
+  checks 0 example.exr
+  specconvert --grid 400:700:50 -m D65 --patches 2x1 E A --extrapolate zero -o d.exr 2>/dev/null ||
+    specconvert --grid 400:700:50 --patches 2x1 E A -o d.exr
+  checks 0 d.exr
+}
+
+@test "--check as JSON" {
+  spectral a.exr --without emissiveUnits --attribute spec:mine=x
+  code=0
+  specinfo --check --json a.exr >printed.json || code=$?
+  [ "$code" -eq 1 ]
+  jq -e '.file == "a.exr" and .errors == 0 and .warnings == 1 and .notes == 1 and
+    (.findings | length == 2) and .findings[1].severity == "warning" and
+    .findings[1].place == "emissiveUnits"' printed.json
+  spectral b.exr
+  code=0
+  specinfo --check --json b.exr a.exr >printed.json || code=$?
+  [ "$code" -eq 1 ]
+  jq -e 'length == 2 and .[0].findings == []' printed.json
+}
+
+@test "--check: 2 where a file cannot be read, and the others' findings all the same" {
+  spectral a.exr --without emissiveUnits
+  code=0
+  specinfo --check a.exr missing.exr >printed 2>err || code=$?
+  [ "$code" -eq 2 ]
+  [ "$(wc -l <printed)" -eq 1 ]
+  [ "$(wc -l <err)" -eq 1 ]
+}
+
+# --check: names
+
+@test "finding: a band without a wavelength, and others all the same" {
+  spectral a.exr --channel S0.nm --channel S0.500,000000nm --channel S0.9999999999nm --without emissiveUnits
+  checks 1 a.exr 'error: S0.9999999999nm: is named as a band without a wavelength between 0.01 and 1e+06 nm' \
+    'error: S0.nm: is named as a band without a wavelength between 0.01 and 1e+06 nm' \
+    "warning: emissiveUnits: is missing; a writer must write 'W.m^-2.sr^-1'"
+  fails_cleanly specinfo a.exr
+}
+
+@test "finding: what looks like a band" {
+  spectral a.exr --extra S0.550.5nm
+  checks 1 a.exr "warning: S0.550.5nm: looks like a band, but its name is another channel's (the decimal mark is a comma)"
+}
+
+@test "finding: names that are not as a writer must write them" {
+  spectral a.exr --channel T.400nm --channel T.0,5um --channel T.600,000000nm
+  checks 1 a.exr "warning: T.0,5um: is not named 'T.500,000000nm', as a writer must name it (2 of 3 bands)" \
+    'note: emissiveUnits: is there, but no band of light'
+}
+
+@test "finding: the names of other programs" {
+  spectral a.exr --channel 400.00-410.00nm --channel 410.00-420.00nm
+  checks 1 a.exr "warning: 400.00-410.00nm: is not named 'S0.405,000000nm', as a writer must name it (2 of 2 bands, in the way of another program)"
+}
+
+@test "finding: pbrt-v4's names and scale" {
+  spectral a.exr --channel S0.402,500nm --channel S0.407,500nm
+  checks 1 a.exr "warning: S0.402,500nm: is not named 'S0.402,500000nm', as a writer must name it (2 of 2 bands)" \
+    'note: S0.402,500nm: has three decimals, as pbrt-v4 writes them; its values are 106.856895 times the radiance'
+}
+
+@test "finding: light and reflectance at once" {
+  spectral a.exr --extra T.500,000000nm
+  checks 1 a.exr "error: T.500,000000nm: is a band of reflectance, beside bands of light such as 'S0.400,000000nm'"
+  fails_cleanly specconvert a.exr -o b.exr
+}
+
+@test "finding: two grids, of two programs" {
+  spectral a.exr --extra 400.00-410.00nm
+  checks 1 a.exr "error: 400.00-410.00nm: is named in another way than 'S0.400,000000nm': two grids in one file" \
+    "warning: 400.00-410.00nm: is not named 'S0.405,000000nm', as a writer must name it (1 of 17 bands, in the way of another program)"
+}
+
+@test "finding: the same band twice, and nearly" {
+  spectral a.exr --channel S0.500,000000nm --channel S0.500nm
+  checks 1 a.exr "warning: S0.500nm: is not named 'S0.500,000000nm', as a writer must name it (1 of 2 bands)" \
+    "error: S0.500nm: is the same band as 'S0.500,000000nm'"
+  spectral b.exr --channel S0.500,000000nm --channel S0.500,000900nm --channel S0.500,002000nm
+  checks 1 b.exr "warning: S0.500,000900nm: is nearly the same band as 'S0.500,000000nm'"
+}
+
+@test "finding: bands of whole numbers" {
+  spectral a.exr --size 1x1 --grid 400:500:100 --uint S0.600,000000nm
+  checks 1 a.exr 'warning: S0.600,000000nm: is UINT, where HALF or FLOAT is advised (1 bands)'
+}
+
+@test "finding: Stokes components that are missing" {
+  spectral a.exr --channel S0.500,000000nm --channel S1.500,000000nm --pattern constant:0 \
+    --attribute polarisationHandedness=left
+  checks 1 a.exr 'error: S2: is missing, beside other Stokes components' \
+    'error: S3: is missing, beside other Stokes components' \
+    'note: file: every sample of its bands and layers is 0'
+}
+
+@test "finding: Stokes components on other grids" {
+  for component in S0 S1 S2 S3; do
+    names+=(--channel "$component.500,000000nm")
+  done
+  spectral a.exr "${names[@]}" --extra S2.510,000000nm --extra S0.600,000000nm --attribute polarisationHandedness=left
+  checks 1 a.exr 'error: S0.600,000000nm: has no partner in S1 (1 bands)' \
+    'error: S0.600,000000nm: has no partner in S2 (1 bands)' \
+    'error: S2.510,000000nm: has no partner in S0 (1 bands)' \
+    'error: S0.600,000000nm: has no partner in S3 (1 bands)'
+}
+
+@test "finding: bispectral without the diagonal" {
+  spectral a.exr --channel T.400,000000nm.500,000000nm --without emissiveUnits
+  checks 1 a.exr 'error: T.400,000000nm.500,000000nm: is bispectral, and there is no band on the diagonal'
+  spectral b.exr --channel T.400,000000nm --channel T.400,000000nm.500,000000nm --without emissiveUnits
+  checks 1 b.exr 'error: T.400,000000nm.500,000000nm: has no band on the diagonal at 500 nm'
+}
+
+@test "finding: micrometres that are called nanometres" {
+  spectral a.exr --channel T.0,400000nm --channel T.0,700000nm --without emissiveUnits
+  checks 1 a.exr 'warning: T.0,400000nm: is at 0.4 nm, and no band is above 10 nm: is its unit another?'
+}
+
+@test "finding: no bands" {
+  spectral a.exr --channel Y --without emissiveUnits --without spectralLayoutVersion
+  checks 0 a.exr 'note: file: has no bands: it is not spectral'
+}
+
+# --check: attributes
+
+@test "finding: attributes that are missing" {
+  spectral a.exr --without spectralLayoutVersion --without emissiveUnits
+  checks 1 a.exr "warning: spectralLayoutVersion: is missing; a writer must write '1.0'" \
+    "warning: emissiveUnits: is missing; a writer must write 'W.m^-2.sr^-1'"
+}
+
+@test "finding: another layout, other units" {
+  spectral a.exr --attribute spectralLayoutVersion=2.0 --attribute emissiveUnits=cd
+  checks 1 a.exr "warning: spectralLayoutVersion: is '2.0', not '1.0'" "warning: emissiveUnits: is 'cd', not 'W.m^-2.sr^-1'"
+}
+
+@test "finding: types of attributes" {
+  spectral a.exr --number spec:bins=3 --attribute EV=1 --number spec:quantity=1
+  checks 1 a.exr 'warning: spec:bins: is of type float instead of string, and so means nothing' \
+    'warning: EV: is of type string instead of float, and so means nothing' \
+    'warning: spec:quantity: is of type float instead of string, and so means nothing'
+}
+
+@test "finding: own attributes that are not known" {
+  spectral a.exr --attribute spec:bin=x
+  checks 0 a.exr 'note: spec:bin: is none of the attributes that this version knows'
+}
+
+@test "finding: quantities" {
+  spectral a.exr --quantity reflectance
+  checks 1 a.exr "warning: spec:quantity: is 'reflectance', but the bands are named as light"
+  spectral b.exr --kind T --pattern constant:1 --quantity 'radiance per band'
+  checks 1 b.exr "warning: spec:quantity: is 'radiance per band', but the bands are named as reflectance"
+  spectral c.exr --quantity irradiance
+  checks 0 c.exr "note: spec:quantity: is 'irradiance', none of those that this version knows"
+}
+
+@test "finding: bins" {
+  spectral a.exr --grid 400:500:50 --attribute 'spec:bins=375 425 475'
+  checks 1 a.exr 'error: spec:bins: has 3 edges for 3 bands, instead of 4'
+  spectral b.exr --grid 400:500:50 --attribute 'spec:bins=375 425  475 525'
+  checks 1 b.exr 'error: spec:bins: is not numbers with single spaces between them'
+  spectral c.exr --grid 400:500:50 --attribute 'spec:bins=375 425 425 525'
+  checks 1 c.exr 'error: spec:bins: the edge 425 nm does not lie above the one before, 425 nm'
+  spectral d.exr --grid 400:500:50 --attribute 'spec:bins=375 425 445 525'
+  checks 1 d.exr 'error: spec:bins: the bin 425..445 nm is not around its band, 450 nm'
+  for file in a b c d; do
+    fails_cleanly specinfo $file.exr
+  done
+}
+
+@test "finding: handedness" {
+  spectral a.exr --kind stokes
+  checks 1 a.exr 'warning: polarisationHandedness: is missing: the sign of S3 is not known'
+  spectral b.exr --kind stokes --attribute polarisationHandedness=up
+  checks 1 b.exr "warning: polarisationHandedness: is 'up', neither 'left' nor 'right'"
+}
+
+@test "finding: curves in attributes" {
+  spectral a.exr --attribute 'lensTransmission=400nm:0.5;500.5nm:1e-3;' --attribute 'cameraResponse=400nm:0.5' \
+    --attribute 'S0.400,000000nm=400nm=0.5'
+  checks 1 a.exr 'note: cameraResponse: lacks the semicolon at its end' \
+    'warning: S0.400,000000nm: is no curve as the layout writes it (450.0nm:0.5;460.0nm:0.6;)'
+}
+
+@test "finding: a history without its last line feed" {
+  spectral a.exr --attribute spec:history=tool
+  checks 1 a.exr 'warning: spec:history: does not end with a line feed, as each of its lines must'
+}
+
+@test "finding: places beyond the Earth" {
+  spectral a.exr --number longitude=-180 --number latitude=90.5
+  checks 1 a.exr 'warning: latitude: is 90.5 degrees, beyond 90'
+  spectral b.exr --number longitude=180.5 --number latitude=-90
+  checks 1 b.exr 'warning: longitude: is 180.5 degrees, beyond 180'
+}
+
+# --check: the file, layers, geometry
+
+@test "finding: tiles, parts, the order of lines" {
+  spectral one.exr --size 9x7 --grid 500:540:20 --compression none
+  spectral two.exr --size 9x7 --channel Y
+  exrmaketiled -t 8 4 one.exr a.exr
+  checks 1 a.exr 'warning: file: has tiles of 8 x 4; a writer must write scanlines'
+  exrmultipart -combine -i two.exr one.exr -o b.exr >/dev/null
+  checks 1 b.exr 'warning: file: has 2 parts; a writer must write a single one'
+  reverse_lines one.exr c.exr 7 $((9 * 3 * 4))
+  checks 1 c.exr 'warning: file: its lines are not in increasing order, as a writer must write them'
+}
+
+@test "finding: layers that do not fit" {
+  spectral a.exr --grid 400:500:100 --extra film1.mirror.S0.400,000000nm --extra film1.cosine
+  checks 1 a.exr "error: layers: the layer 'film1.mirror' has no band at 500 nm, which S0 has"
+}
+
+@test "finding: films without cosine, cover for some of them" {
+  for film in 1 2; do
+    films+=(--extra "film$film.mirror.S0.400,000000nm")
+  done
+  spectral a.exr --channel S0.400,000000nm "${films[@]}" --pattern constant:0.5 --extra film1.cosine --extra film2.cover
+  checks 1 a.exr 'error: film2.cosine: is missing, and so is Ns or I in its place' \
+    'error: layers: have cover for 1 of 2 films; it must be there for all or for none'
+}
+
+@test "finding: lamps without a direction" {
+  spectral a.exr --channel S0.400,000000nm --extra lamp1.S0.400,000000nm
+  checks 1 a.exr "error: lamp1.D: is missing: the direction of the lamp's light"
+}
+
+@test "finding: ids that are no whole numbers, vectors that are not whole" {
+  spectral a.exr --channel S0.400,000000nm --extra id --extra N.X --extra N.Y
+  checks 1 a.exr 'warning: N: has not all of .X, .Y, .Z' 'warning: id: is float; ids are UINT'
+  spectral b.exr --channel S0.400,000000nm --extra film1.mirror.S0.400,000000nm --extra film1.cosine --extra film1.id \
+    --pattern constant:0.5
+  checks 1 b.exr 'warning: film1.id: is float; ids are UINT'
+}
+
+# --check: samples
+
+@test "finding: NaN and infinities, the first and how many" {
+  spectral a.exr --pattern nan:3,2,5 --pattern nan:2,2,6 --pattern nan:9,7,5 --pattern inf:0,0,1
+  checks 1 a.exr 'warning: S0.520,000000nm at 2,2: is NaN, the first of 3 such samples in 2 channels' \
+    'warning: S0.420,000000nm at 0,0: is infinite, the first of 1 such samples in 1 channels'
+}
+
+@test "finding: NaN where there is no band" {
+  spectral a.exr --grid 400:500:100 --extra Z --pattern nan:3,2,2 --pattern inf:4,2,2
+  checks 0 a.exr 'note: Z at 3,2: is NaN, the first of 1 such samples in 1 channels' \
+    'note: Z at 4,2: is infinite, the first of 1 such samples in 1 channels'
+}
+
+@test "finding: negative light, and what reflects more than all" {
+  spectral a.exr --size 2x1 --grid 400:500:100 --pattern constant:-0.5
+  checks 1 a.exr 'warning: S0.400,000000nm at 0,0: is negative (the least is -0.5), the first of 4 such samples in 2 channels'
+  spectral b.exr --size 2x1 --grid 400:500:100 --kind T --pattern constant:1.25
+  checks 1 b.exr 'warning: T.400,000000nm at 0,0: is a reflectance above 1 (the most is 1.25), the first of 4 such samples in 2 channels'
+  spectral c.exr --size 2x1 --grid 400:500:100 --kind T --pattern constant:1.25 --quantity 'reflectance factor'
+  checks 0 c.exr
+  spectral d.exr --size 2x1 --grid 400:500:100 --kind T --pattern constant:1.000001
+  checks 0 d.exr
+}
+
+@test "finding: negative light in layers" {
+  spectral a.exr --size 1x1 --channel S0.400,000000nm --extra through.S0.400,000000nm --pattern constant:-1
+  checks 1 a.exr 'warning: S0.400,000000nm at 0,0: is negative (the least is -1), the first of 2 such samples in 2 channels'
+}
+
+@test "finding: light that is more polarised than it can be" {
+  # Channels count from 0, so S0 is .001, S1 .101, S2 .201 and S3 .301 in the first pixel.
+  for component in S0 S1 S2 S3; do
+    names+=(--channel "$component.500,000000nm")
+  done
+  spectral a.exr --size 3x2 "${names[@]}" --attribute polarisationHandedness=left
+  checks 1 a.exr 'warning: S0.500,000000nm at 0,0: is less than the length of S1, S2, S3, the first of 6 such samples'
+}
+
+@test "finding: coverage beyond 0 to 1, cosines beyond 1" {
+  spectral a.exr --size 1x1 --channel S0.400,000000nm --extra A --extra cover --extra cosine --pattern constant:1.5
+  checks 1 a.exr 'warning: A at 0,0: is a coverage above 1 (the most is 1.5), the first of 2 such samples in 2 channels' \
+    'warning: cosine: reaches from 1.5 to 1.5, which no cosine does'
+  spectral b.exr --size 1x1 --channel T.400,000000nm --extra A --pattern constant:-0.5 --without emissiveUnits
+  checks 1 b.exr 'warning: T.400,000000nm at 0,0: is negative (the least is -0.5), the first of 1 such samples in 1 channels' \
+    'warning: A at 0,0: is a coverage below 0 (the least is -0.5), the first of 1 such samples in 1 channels'
+}
+
+@test "finding: nothing but zeros" {
+  spectral a.exr --pattern constant:0
+  checks 0 a.exr 'note: file: every sample of its bands and layers is 0'
+}
+
+@test "--check prints the same for every number of threads" {
+  spectral a.exr --size 700x301 --grid 400:700:20 --pattern negative --pattern nan:600,300,3 --pattern nan:5,200,7
+  specinfo -j 1 --check a.exr >one || [ $? -eq 1 ]
+  [ "$(wc -l <one)" -eq 2 ]
+  for threads in 2 5; do
+    specinfo -j $threads --check a.exr >several || [ $? -eq 1 ]
+    cmp one several
+  done
+}
