@@ -49,6 +49,7 @@ struct job {
 	size_t inputs, input_room;
 	int json, statistics, bands, check;
 	struct spec_settings settings;
+	struct cli_progress progress;
 	struct spec_text text;
 	struct spec_json writer;
 	size_t told;     /* files that the text tells of */
@@ -278,15 +279,12 @@ tell_all(struct job *job, struct spec_error *error)
 	int trouble = 0;
 
 	for (size_t i = 0; i < job->inputs; i++) {
-		struct cli_progress progress;
 		enum spec_status status;
 
-		cli_progress_start(
-			&progress, "lines", job->settings.progress, job->settings.quiet);
-		job->settings.show = cli_progress_show;
-		job->settings.show_state = &progress;
+		cli_progress_start(&job->progress, "lines", job->settings.progress,
+			job->settings.quiet);
 		status = tell(job, job->input[i], error);
-		cli_progress_end(&progress);
+		cli_progress_end(&job->progress);
 		if (status == SPEC_ENOMEM)
 			cli_die(job->cli, error);
 		if (status != SPEC_OK) {
@@ -309,6 +307,8 @@ main(int argc, char **argv)
 
 	cli_start(&cli, &program, argc, argv);
 	parse(&cli, &job, &error);
+	job.settings.show = cli_progress_show;
+	job.settings.show_state = &job.progress;
 	cli_check(&cli, spec_text_open(&job.text, &error), &error);
 	spec_json_start(&job.writer, job.text.stream);
 	if (job.json && job.inputs > 1)

@@ -139,7 +139,7 @@ static void
 test_numbers_read_back(void **state)
 {
 	static const double values[] = {0, -0.0, 0.1, 1.0 / 3, 5e-324,
-		1.7976931348623157e308, 123456789012345678, 550.5, 299792458, 4.35};
+		1.7976931348623157e308, 123456789012345680.0, 550.5, 299792458, 4.35};
 
 	(void)state;
 	for (size_t i = 0; i < sizeof values / sizeof values[0]; i++) {
