@@ -13,6 +13,7 @@
 #include "cli/progress.h"
 #include "image/describe.h"
 #include "image/lint.h"
+#include "image/probe.h"
 #include "image/value.h"
 #include "spectrum/lookup.h"
 #include "spectrum/spd.h"
@@ -28,6 +29,9 @@ static const struct cli_option options[] = {
 		"min, max, mean, standard deviation, counts of NaN, of\n"
 		"infinities and of negative values; reads all pixels"},
 	{'b', "bands", NULL, "the same for each band, too"},
+	{'p', "probe", "X,Y",
+		"print the spectrum of this pixel in place of all that; may\n"
+		"be given several times"},
 	{'c', "check", NULL,
 		"list what is wrong with images, a line for each finding;\n"
 		"reads all pixels"},
@@ -48,6 +52,8 @@ struct job {
 	const char **input;
 	size_t inputs, input_room;
 	int json, statistics, bands, check;
+	struct spec_probe *probe;
+	size_t probes, probe_room;
 	struct spec_settings settings;
 	struct cli_progress progress;
 	struct spec_text text;
@@ -55,6 +61,21 @@ struct job {
 	size_t told;     /* files that the text tells of */
 	size_t findings; /* errors and warnings */
 };
+
+static enum spec_status
+take_probe(struct job *job, const char *text, struct spec_error *error)
+{
+	void *list = job->probe;
+	enum spec_status status = spec_memory_grow(&list, &job->probe_room, job->probes + 1,
+		sizeof *job->probe, "pixels", error);
+
+	job->probe = list;
+	if (status == SPEC_OK)
+		status = spec_probe_parse(text, &job->probe[job->probes], error);
+	if (status == SPEC_OK)
+		job->probes++;
+	return status;
+}
 
 static enum spec_status
 take_option(struct job *job, const char *name, const char *value, struct spec_error *error)
@@ -69,6 +90,8 @@ take_option(struct job *job, const char *name, const char *value, struct spec_er
 		job->statistics = job->bands = 1;
 	else if (strcmp(name, "check") == 0)
 		job->check = 1;
+	else if (strcmp(name, "probe") == 0)
+		return take_probe(job, value, error);
 	else
 		return spec_settings_take(&job->settings, name, value, &known, error);
 	return SPEC_OK;
@@ -104,8 +127,8 @@ parse(struct cli *cli, struct job *job, struct spec_error *error)
 		else
 			cli_check(cli, take_input(job, cli->value, error), error);
 	}
-	if (job->check && job->statistics)
-		cli_usage(cli, "--check takes no statistics");
+	if (job->check + job->statistics + (job->probes > 0) > 1)
+		cli_usage(cli, "--check, --probe and statistics exclude each other");
 	if (job->inputs == 0)
 		cli_check(cli, take_input(job, "-", error), error);
 }
@@ -260,15 +283,37 @@ check_image(struct job *job, const char *path, struct spec_error *error)
 }
 
 static enum spec_status
+probe_image(struct job *job, const char *path, struct spec_error *error)
+{
+	struct spec_reader *reader;
+	enum spec_status status = spec_reader_open(&reader, path, &job->settings, error);
+
+	if (status == SPEC_OK)
+		status = spec_probe_read(job->probe, job->probes, reader, error);
+	if (status == SPEC_OK) {
+		separate(job);
+		status = job->json ? spec_probe_json(&job->writer, reader, job->probe,
+					     job->probes, error)
+				   : spec_probe_print(job->text.stream, reader, job->probe,
+					     job->probes, error);
+	}
+	spec_reader_close(reader);
+	return status;
+}
+
+static enum spec_status
 tell(struct job *job, const char *path, struct spec_error *error)
 {
 	int curve = is_curve(path);
 
-	if (job->check && curve)
+	if (curve && (job->check || job->probes > 0))
 		return spec_error_set(error, SPEC_EUSAGE,
-			"'%s' is a curve, and --check is for images", path);
+			"'%s' is a curve, and %s is for images", path,
+			job->check ? "--check" : "--probe");
 	if (job->check)
 		return check_image(job, path, error);
+	if (job->probes > 0)
+		return probe_image(job, path, error);
 	return curve ? tell_curve(job, path, error) : tell_image(job, path, error);
 }
 
@@ -324,6 +369,8 @@ main(int argc, char **argv)
 				job.settings.output, job.text.bytes, job.text.size, &error),
 			&error);
 	spec_text_free(&job.text);
+	spec_probe_free(job.probe, job.probes);
+	free(job.probe);
 	free((void *)job.input);
 	return code;
 }

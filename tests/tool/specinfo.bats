@@ -328,6 +328,63 @@ light_of() {
   fails_cleanly specinfo --limit channels=3 --check a.exr
 }
 
+# Pixels
+
+# The ramp is ((x + 1) * 0.001 + y * 0.01) + band * 0.1, as floats.
+@test "--probe prints the spectrum of pixels, which is a curve" {
+  spectral a.exr --grid 400:500:50 --extra A --uint id --data=-3,5
+  [ "$(specinfo --probe 2,1 -p 0,7 a.exr)" = '# title: a.exr
+# quantity: radiance per nm
+# channel A: 0.313 0.371
+# channel id: 65538 458752
+# columns: wavelength_nm x2y1 x0y7
+400 0.013 0.071
+450 0.113 0.171
+500 0.213 0.271' ] || complain "$(specinfo --probe 2,1 -p 0,7 a.exr)"
+  specinfo --probe 2,1 a.exr | specconvert --scale 1 - | grep -qx '450 0.113'
+}
+
+@test "--probe agrees with other tools, in any order, from files and pipes" {
+  for compression in none zip piz; do
+    spectral a.exr --size 7x70 --grid 400:700:100 --pattern noise --compression $compression
+    specinfo -p 6,69 -p 0,0 -p 3,33 -p 2,33 -p 1,34 a.exr >several
+    specinfo -p 6,69 -p 0,0 -p 3,33 -p 2,33 -p 1,34 - < <(cat a.exr) | tail -n +2 | diff <(tail -n +2 several) -
+    column=2
+    for pixel in 6,69 0,0 3,33 2,33 1,34; do
+      x=${pixel%,*} y=${pixel#*,}
+      diff <(grep -v '^#' several | cut -d ' ' -f 1,$column) \
+        <(specconvert --crop "$x,$y,$((x + 1)),$((y + 1))" a.exr | specconvert -f spd | grep -v '^#')
+      column=$((column + 1))
+    done
+  done
+}
+
+@test "--probe of Stokes components, of no finite sample, as JSON" {
+  spectral a.exr --kind stokes --grid 400:500:100 --pattern nan:1,0,1 --extra A
+  specinfo --probe 1,0 a.exr | grep -qx '# columns: wavelength_nm x1y0S0 x1y0S1 x1y0S2 x1y0S3'
+  specinfo --probe 1,0 a.exr | grep -qx '500 nan 0.051 -0.0255 0.01275'
+  holds '.wavelength_nm == [400, 500] and .quantity == "radiance per nm" and (.pixels | length == 2) and
+    (.pixels[0] | .x == 1 and .y == 0 and .S0 == [0.002, null] and .S3 == [0.00025, 0.01275] and .channels == {A: 0.202})' \
+    specinfo --json --probe 1,0 --probe 0,1 a.exr
+  spectral b.exr --channel T.400nm --channel T.500nm --channel T.400nm.500nm
+  holds '.pixels[0] | .T == [0.001, 0.101] and .channels == {"T.400nm.500nm": 0.201}' specinfo --json --probe 0,0 b.exr
+  spectral c.exr --channel Y
+  holds '.wavelength_nm == [] and .quantity == null and .pixels[0].channels == {Y: 0.001}' specinfo --json --probe 0,0 c.exr
+  [ "$(specinfo --probe 0,0 c.exr)" = '# title: c.exr
+# channel Y: 0.001' ]
+}
+
+@test "--probe outside the image, and what is no pixel" {
+  spectral a.exr
+  for pixel in 16,0 0,8 4294967296,0 -1,0 1 1,2,3 1.5,0 x,y '1,' ,1; do
+    fails_cleanly specinfo --probe "$pixel" a.exr
+  done
+  fails_cleanly specinfo --probe 16,0 a.exr
+  [[ $stderr = *'a.exr: the pixel 16,0 is outside of its 16 x 8' ]] || complain "$stderr"
+  fails_cleanly specinfo --probe 0,0 --check a.exr
+  fails_cleanly specinfo --probe 0,0 D65
+}
+
 # Other programs' files, as exrheader sees them
 
 @test "every sample of other programs is told of" {

@@ -15,7 +15,8 @@
 static void
 expect_text(const struct spec_text *text, const char *wanted)
 {
-	if (text->size != strlen(wanted) || memcmp(text->bytes, wanted, text->size) != 0)
+	if (text->size != strlen(wanted) ||
+		(text->size > 0 && memcmp(text->bytes, wanted, text->size) != 0))
 		fail_msg("got '%.*s', wanted '%s'", (int)text->size, text->bytes, wanted);
 }
 
