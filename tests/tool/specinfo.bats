@@ -304,7 +304,8 @@ light_of() {
 @test "each Stokes component, what is bispectral, and other channels have their own" {
   spectral a.exr --kind stokes --grid 400:500:100 --extra A --uint id
   [ "$(value '.statistics | map(.name) | join(" ")' specinfo --json -s a.exr)" = 'S0 S1 S2 S3 A' ]
-  holds '.statistics[2] | .min < 0' specinfo --json -s a.exr
+  [ "$(value '.statistics | map(.channels)' specinfo --json -s a.exr)" = '[2,2,2,2,1]' ]
+  holds '.statistics[2] | .min < 0 and .max < 0' specinfo --json -s a.exr
   [ "$(value '.band_statistics | length' specinfo --json -b a.exr)" = 8 ]
   spectral b.exr --channel T.400nm --channel T.500nm --channel T.400nm.500nm
   [ "$(value '.statistics | map(.name) | join(", ")' specinfo --json -s b.exr)" = 'T, T off the diagonal' ]
@@ -500,6 +501,8 @@ END
   spectral a.exr --channel S0.402,500nm --channel S0.407,500nm
   checks 1 a.exr "warning: S0.402,500nm: is not named 'S0.402,500000nm', as a writer must name it (2 of 2 bands)" \
     'note: S0.402,500nm: has three decimals, as pbrt-v4 writes them; its values are 106.856895 times the radiance'
+  spectral b.exr --channel S0.402,500nm --channel S0.407,5nm
+  checks 1 b.exr "warning: S0.402,500nm: is not named 'S0.402,500000nm', as a writer must name it (2 of 2 bands)"
 }
 
 @test "finding: light and reflectance at once" {
@@ -551,6 +554,13 @@ END
   checks 1 a.exr 'error: T.400,000000nm.500,000000nm: is bispectral, and there is no band on the diagonal'
   spectral b.exr --channel T.400,000000nm --channel T.400,000000nm.500,000000nm --without emissiveUnits
   checks 1 b.exr 'error: T.400,000000nm.500,000000nm: has no band on the diagonal at 500 nm'
+}
+
+@test "finding: what the reader alone refuses" {
+  # 0.0008 nm off, which is near, but farther than a quarter of the way to the next band.
+  spectral a.exr --channel T.500,000000nm --channel T.500,002000nm --channel T.500,000800nm.500,002000nm \
+    --without emissiveUnits
+  checks 1 a.exr "error: file: channel 'T.500,000800nm.500,002000nm' has a wavelength that is not on the diagonal"
 }
 
 @test "finding: micrometres that are called nanometres" {
@@ -606,7 +616,9 @@ END
   checks 1 c.exr 'error: spec:bins: the edge 425 nm does not lie above the one before, 425 nm'
   spectral d.exr --grid 400:500:50 --attribute 'spec:bins=375 425 445 525'
   checks 1 d.exr 'error: spec:bins: the bin 425..445 nm is not around its band, 450 nm'
-  for file in a b c d; do
+  spectral e.exr --grid 400:500:50 --attribute 'spec:bins=375 425 475 525 575'
+  checks 1 e.exr 'error: spec:bins: has 5 edges for 3 bands, instead of 4'
+  for file in a b c d e; do
     fails_cleanly specinfo $file.exr
   done
 }
