@@ -1,5 +1,4 @@
 /* specconvert - change the grid, values or extent of spectra; see specconvert(1). */
-#include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -14,6 +13,7 @@
 #include "image/colourcurve.h"
 #include "image/convert.h"
 #include "image/fromrgb.h"
+#include "image/kind.h"
 #include "image/patches.h"
 #include "image/represented.h"
 #include "image/writer.h"
@@ -22,7 +22,6 @@
 #include "spectrum/reshape.h"
 #include "spectrum/spd.h"
 
-#define UTF_8_MARK 0xef /* its first byte */
 #define MOST_CURVES 4096
 
 static const struct cli_option options[] = {
@@ -273,37 +272,6 @@ parse(struct cli *cli, struct job *job, struct spec_error *error)
 	job->setup.illuminate = job->illuminate.count > 0 ? &job->illuminate : NULL;
 	job->setup.half = job->patches.half = job->colours.half = job->settings.half;
 	job->colours.grid = job->setup.grid;
-}
-
-static int
-has_suffix(const char *path, const char *suffix)
-{
-	size_t length = strlen(path), tail = strlen(suffix);
-
-	return length > tail && strcasecmp(path + length - tail, suffix) == 0;
-}
-
-static int
-is_text_name(const char *path)
-{
-	return has_suffix(path, ".spd") || has_suffix(path, ".txt") ||
-	       has_suffix(path, ".csv");
-}
-
-/* A curve is a text file, a name in the spectra folder, or text on standard input. */
-static int
-is_curve(const char *path)
-{
-	unsigned char byte;
-
-	if (is_text_name(path))
-		return 1;
-	if (spec_reader_recognises(path) || has_suffix(path, ".exr"))
-		return 0;
-	if (strcmp(path, "-") == 0 || strncmp(path, "/dev/fd/", 8) == 0)
-		return spec_source_peek(path, &byte, 1) == 1 &&
-		       (isprint(byte) || isspace(byte) || byte == UTF_8_MARK);
-	return access(path, F_OK) != 0 && path[0] != '/' && path[0] != '.';
 }
 
 /* The suffix of a path's last component with its dot, or "". */
@@ -615,7 +583,7 @@ main(int argc, char **argv)
 	job.settings.show = cli_progress_show;
 	job.settings.show_state = &progress;
 
-	status = is_curve(job.input[0]) ? convert_curves(&job, argc, argv, &error)
+	status = spec_kind_is_curve(job.input[0]) ? convert_curves(&job, argc, argv, &error)
 					: convert_image(&job, argc, argv, &error);
 	cli_progress_end(&progress);
 	cli_check(&cli, status, &error);

@@ -12,6 +12,7 @@
 #include "cli/options.h"
 #include "cli/progress.h"
 #include "image/describe.h"
+#include "image/kind.h"
 #include "image/lint.h"
 #include "image/probe.h"
 #include "image/value.h"
@@ -19,7 +20,6 @@
 #include "spectrum/spd.h"
 #include "spectrum/summary.h"
 
-#define EXR_FIRST_BYTE 0x76
 #define EXIT_FINDINGS 1
 #define EXIT_TROUBLE 2
 
@@ -133,31 +133,6 @@ parse(struct cli *cli, struct job *job, struct spec_error *error)
 		cli_check(cli, take_input(job, "-", error), error);
 }
 
-static int
-has_suffix(const char *path, const char *suffix)
-{
-	size_t length = strlen(path), end = strlen(suffix);
-
-	return length > end && strcmp(path + length - end, suffix) == 0;
-}
-
-/* A curve is a text file, a name in the spectra folder, or text on standard input. */
-static int
-is_curve(const char *path)
-{
-	int byte;
-
-	if (has_suffix(path, ".spd") || has_suffix(path, ".txt") ||
-		has_suffix(path, ".csv"))
-		return 1;
-	byte = spec_source_peek(path);
-	if (byte == EXR_FIRST_BYTE || has_suffix(path, ".exr"))
-		return 0;
-	if (strcmp(path, "-") == 0 || strncmp(path, "/dev/fd/", 8) == 0)
-		return byte >= 0;
-	return access(path, F_OK) != 0 && path[0] != '/' && path[0] != '.';
-}
-
 static void
 separate(struct job *job)
 {
@@ -211,7 +186,7 @@ read_pixels(struct job *job, struct spec_reader *reader,
 static enum spec_status
 tell_image(struct job *job, const char *path, struct spec_error *error)
 {
-	struct spec_describe_setup setup = {.format = "OpenEXR", .bands = job->bands};
+	struct spec_describe_setup setup = {.bands = job->bands};
 	struct spec_describe describe = {0};
 	struct spec_statistics *statistics = NULL;
 	struct spec_reader *reader = NULL;
@@ -220,6 +195,7 @@ tell_image(struct job *job, const char *path, struct spec_error *error)
 	if (status == SPEC_OK)
 		status = read_pixels(job, reader, &statistics, error);
 	setup.statistics = statistics;
+	setup.format = status == SPEC_OK ? spec_reader_format(reader) : NULL;
 	if (status == SPEC_OK)
 		status = spec_describe_find(&describe, reader, &setup, error);
 	if (status == SPEC_OK) {
@@ -304,7 +280,7 @@ probe_image(struct job *job, const char *path, struct spec_error *error)
 static enum spec_status
 tell(struct job *job, const char *path, struct spec_error *error)
 {
-	int curve = is_curve(path);
+	int curve = spec_kind_is_curve(path);
 
 	if (curve && (job->check || job->probes > 0))
 		return spec_error_set(error, SPEC_EUSAGE,
