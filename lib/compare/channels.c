@@ -162,7 +162,8 @@ add_layers(const struct spec_plan *plan)
 			band++) {
 			for (size_t j = 0; j < plan->operands; j++)
 				at[j] = bands_of(&plan->layers[j], i)[band];
-			status = add_foreign(plan, at, plan->image[0]->channel[at[0]].name);
+			status = add_foreign(plan, at,
+				plan->image[0]->channel[bands_of(first, i)[band]].name);
 		}
 	}
 	return status;

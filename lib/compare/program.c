@@ -337,16 +337,16 @@ find_between(
 	const struct knowledge *wavelength = &maker->of[node->operand[0]];
 	const char *name = maker->place->name[node->image];
 	double nm = wavelength->value, low;
-	int same;
+	int same = 0;
 
 	if (!wavelength->known)
 		return fail(maker, SPEC_EUSAGE, node,
 			"the wavelength must be the same in all pixels");
 	if (image->bands == 0)
 		return fail(maker, SPEC_EUSAGE, node, "%s has no bands", name);
-	if (nm == nm)
+	if (!isnan(nm))
 		between->band = spec_image_nearest_band(image, nm, &same);
-	if (nm == nm && same)
+	if (same)
 		return SPEC_OK;
 	if (!(nm >= image->wavelength_nm[0] &&
 		    nm <= image->wavelength_nm[image->bands - 1]))

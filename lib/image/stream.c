@@ -35,12 +35,12 @@ common_multiple(long long a, long long b)
 {
 	long long divisor = a, rest = b;
 
-	while (rest != 0) { /* Euclid */
+	do { /* Euclid */
 		long long next = divisor % rest;
 
 		divisor = rest;
 		rest = next;
-	}
+	} while (rest != 0);
 	return a / divisor * b;
 }
 
