@@ -39,7 +39,7 @@ struct job {
 	const char *input[SPEC_ARITHMETIC_MOST];
 	size_t inputs;
 	const char *mask_text;
-	struct spec_mask mask;
+	struct spec_matte mask;
 	double weight[SPEC_ARITHMETIC_MOST];
 	size_t weights;
 	int chosen; /* of --op, --merge and --expr */
@@ -205,7 +205,7 @@ is_taken(const struct job *job)
 static enum spec_status
 open_mask(struct job *job, struct spec_error *error)
 {
-	enum spec_status status = spec_mask_read(
+	enum spec_status status = spec_matte_read(
 		&job->mask, job->mask_text, job->image[0].image, job->image[0].name, error);
 
 	job->setup.mask = &job->mask;
@@ -217,7 +217,7 @@ open_mask(struct job *job, struct spec_error *error)
 	status = open_image(job, job->mask.path, error);
 	if (status != SPEC_OK)
 		return status;
-	return spec_mask_settle(&job->mask, job->image[job->images - 1].image,
+	return spec_matte_settle(&job->mask, job->image[job->images - 1].image,
 		job->image[job->images - 1].name, error);
 }
 
@@ -266,6 +266,6 @@ main(int argc, char **argv)
 		cli_warn_overflows(&cli, job.settings.output, job.overflows);
 	for (size_t i = 0; i < job.images; i++)
 		spec_reader_close(job.reader[i]);
-	spec_mask_free(&job.mask);
+	spec_matte_free(&job.mask);
 	return 0;
 }

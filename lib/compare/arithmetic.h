@@ -9,7 +9,7 @@
 
 #include "base/error.h"
 #include "compare/expression.h"
-#include "compare/mask.h"
+#include "compare/matte.h"
 #include "compare/match.h"
 #include "compare/program.h"
 #include "image/reader.h"
@@ -37,10 +37,10 @@ enum spec_status spec_operation_find(
 
 struct spec_arithmetic_setup {
 	enum spec_operation operation;
-	const char *expression;       /* of EXPRESSION */
-	const struct spec_mask *mask; /* of LERP; settled */
-	const char *alpha;            /* the channel of OVER; null: A */
-	const double *weight;         /* of MEAN and MERGE, one for each image; or null */
+	const char *expression;        /* of EXPRESSION */
+	const struct spec_matte *mask; /* of LERP; settled */
+	const char *alpha;             /* the channel of OVER; null: A */
+	const double *weight;          /* of MEAN and MERGE, one for each image; or null */
 	enum spec_role kind; /* of EXPRESSION's result; OTHER: that of the first image */
 	int half;            /* bands are stored as HALF */
 };

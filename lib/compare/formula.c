@@ -57,7 +57,7 @@ write_over(FILE *to, const char *alpha, size_t images)
 }
 
 static void
-write_lerp(FILE *to, const struct spec_mask *mask, size_t images)
+write_lerp(FILE *to, const struct spec_matte *mask, size_t images)
 {
 	fputs("mix(image1,image2,", to);
 	write_channel(to, mask->path ? images + 1 : 1, mask->channel);

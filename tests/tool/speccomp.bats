@@ -19,11 +19,6 @@ same() {
   specdiff "$1" "$2" || return 1
 }
 
-# has_line FILE LINE: exrheader prints that line.
-has_line() {
-  exrheader "$1" | grep -qxF -e "$2" || complain "no line '$2' in:" "$(exrheader "$1")"
-}
-
 # ramps: a.exr, the ramp of synthesize, and b.exr, minus that; c.exr, all 0.5.
 ramps() {
   spectral a.exr

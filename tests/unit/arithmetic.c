@@ -1,20 +1,11 @@
 /* Images made into one: what goes together, what comes out, and its values in one pixel. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
-
-#include <math.h>
-
-#include <cmocka.h>
 
 #include "compare/arithmetic.h"
 #include "image/samples.h"
 
-#define COUNT(list) (sizeof(list) / sizeof *(list))
+#include "check.h"
 
 enum { MOST_IMAGES = 4, MOST_CHANNELS = 32 };
 
@@ -360,14 +351,14 @@ test_over(void **state)
 static enum spec_status
 plan_lerp(const char *text)
 {
-	struct spec_mask mask;
+	struct spec_matte mask;
 	const struct spec_arithmetic_setup setup = {
 		.operation = SPEC_OPERATION_LERP, .mask = &mask, .kind = SPEC_ROLE_OTHER};
-	enum spec_status status = spec_mask_read(&mask, text, &image[0], "a.exr", &error);
+	enum spec_status status = spec_matte_read(&mask, text, &image[0], "a.exr", &error);
 
 	if (status == SPEC_OK)
 		status = plan_setup(&setup);
-	spec_mask_free(&mask);
+	spec_matte_free(&mask);
 	return status;
 }
 
@@ -410,7 +401,7 @@ test_lerp(void **state)
 static void
 test_merge(void **state)
 {
-	static const double weight[] = {1, 3};
+	static const double weight[] = {1, 3}, fine[] = {0.123456789, 0.987654321};
 	struct spec_arithmetic_setup setup = {.operation = SPEC_OPERATION_MERGE,
 		.weight = weight,
 		.kind = SPEC_ROLE_OTHER};
@@ -431,6 +422,9 @@ test_merge(void **state)
 	ok(plan_setup(&setup));
 	is(BAND, 1.75);
 	has_samples(0);
+	setup.weight = fine;
+	ok(plan_setup(&setup));
+	is(BAND, (fine[0] * 1 + fine[1] * 2) / (fine[0] + fine[1]));
 	ok(spec_samples_set(&image[1], 2147483647, "b.exr", &error));
 	refused_as(plan(SPEC_OPERATION_MERGE), "more than spec:samples can say");
 	lights(1, 2, NAN);
@@ -617,6 +611,15 @@ test_mismatches(void **state)
 	bins(reflectance(), 360);
 	refused_as(
 		plan(SPEC_OPERATION_MULTIPLY), "a bin's edge at 350 nm, b.exr at 360 nm");
+	/* In expressions bins are the user's affair where there are none on one side. */
+	bins(light(), 350);
+	light();
+	ok(plan_expression("a + b", SPEC_ROLE_OTHER));
+	has_text("spec:bins", "350 450 550");
+	clear();
+	bins(light(), 350);
+	bins(light(), 360);
+	refused_as(plan_expression("a + b", SPEC_ROLE_OTHER), "a bin's edge at 350 nm");
 	/* Reflectance at points multiplies light in bins, either way round. */
 	reflectance();
 	bins(light(), 350);

@@ -1,21 +1,12 @@
 /* Expressions: what they are worth, and where the caret stands under what is none. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
-
-#include <math.h>
-
-#include <cmocka.h>
 
 #include "compare/expression.h"
 #include "compare/program.h"
 #include "spectrum/planck.h"
 
-#define COUNT(list) (sizeof(list) / sizeof *(list))
+#include "check.h"
 
 /* Wider than two runs of the program, and of no multiple of its lanes. */
 enum { IMAGES = 3, BANDS = 4, WIDTH = 523, HEIGHT = 9, ROW = 5, BAND = 2 };
@@ -325,6 +316,7 @@ test_wavelengths(void **state)
 	IS("a(530)", (1 - part) * (float)value_of(0, 1, (size_t)x) +
 			     part * (float)value_of(0, 2, (size_t)x));
 	IS("a(min(nm * 2, 700))", (float)value_of(0, 3, (size_t)x));
+	IS("a(nm > 500 ? 400 : nm)", (float)value_of(0, 0, (size_t)x));
 	IS("a(500.0009)", (float)value_of(0, 1, (size_t)x));
 }
 

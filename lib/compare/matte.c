@@ -1,4 +1,4 @@
-#include "compare/mask.h"
+#include "compare/matte.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -9,7 +9,7 @@
 
 /* "NAME" or "NAME=N", where the whole is not the name of a channel of the image. */
 static enum spec_status
-read_channel(struct spec_mask *mask, const char *text, const struct spec_image *image,
+read_channel(struct spec_matte *mask, const char *text, const struct spec_image *image,
 	struct spec_error *error)
 {
 	const char *equals = strrchr(text, '=');
@@ -55,7 +55,7 @@ is_file(const char *path)
 
 /* "FILE" or "FILE:NAME": the first colon that ends the name of a file. */
 static enum spec_status
-read_file(struct spec_mask *mask, const char *text, int *found, struct spec_error *error)
+read_file(struct spec_matte *mask, const char *text, int *found, struct spec_error *error)
 {
 	size_t length = strlen(text);
 	enum spec_status status = SPEC_OK;
@@ -81,17 +81,17 @@ read_file(struct spec_mask *mask, const char *text, int *found, struct spec_erro
 }
 
 enum spec_status
-spec_mask_read(struct spec_mask *mask, const char *text, const struct spec_image *image,
+spec_matte_read(struct spec_matte *mask, const char *text, const struct spec_image *image,
 	const char *name, struct spec_error *error)
 {
 	enum spec_status status;
 	int found = 1;
 
-	*mask = (struct spec_mask){0};
+	*mask = (struct spec_matte){0};
 	if (is_channel(text, image)) {
 		status = read_channel(mask, text, image, error);
 		if (status == SPEC_OK)
-			status = spec_mask_settle(mask, image, name, error);
+			status = spec_matte_settle(mask, image, name, error);
 	} else {
 		status = read_file(mask, text, &found, error);
 	}
@@ -99,7 +99,7 @@ spec_mask_read(struct spec_mask *mask, const char *text, const struct spec_image
 		status = spec_error_set(error, SPEC_EUSAGE,
 			"the mask '%s' is neither a channel of %s nor a file", text, name);
 	if (status != SPEC_OK)
-		spec_mask_free(mask);
+		spec_matte_free(mask);
 	return status;
 }
 
@@ -115,7 +115,7 @@ usual_channel(const struct spec_image *image)
 }
 
 enum spec_status
-spec_mask_settle(struct spec_mask *mask, const struct spec_image *image, const char *name,
+spec_matte_settle(struct spec_matte *mask, const struct spec_image *image, const char *name,
 	struct spec_error *error)
 {
 	const char *usual = usual_channel(image);
@@ -142,9 +142,9 @@ spec_mask_settle(struct spec_mask *mask, const struct spec_image *image, const c
 }
 
 void
-spec_mask_free(struct spec_mask *mask)
+spec_matte_free(struct spec_matte *mask)
 {
 	free(mask->path);
 	free(mask->channel);
-	*mask = (struct spec_mask){0};
+	*mask = (struct spec_matte){0};
 }
