@@ -195,7 +195,10 @@ tell_image(struct job *job, const char *path, struct spec_error *error)
 	if (status == SPEC_OK)
 		status = read_pixels(job, reader, &statistics, error);
 	setup.statistics = statistics;
-	setup.format = status == SPEC_OK ? spec_reader_format(reader) : NULL;
+	if (status == SPEC_OK) {
+		setup.format = spec_reader_format(reader);
+		setup.representation = spec_reader_representation(reader);
+	}
 	if (status == SPEC_OK)
 		status = spec_describe_find(&describe, reader, &setup, error);
 	if (status == SPEC_OK) {

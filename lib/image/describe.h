@@ -13,6 +13,7 @@
 
 struct spec_describe_setup {
 	const char *format;                       /* of the file: "OpenEXR" */
+	const char *representation;               /* as spec_reader_representation has it */
 	const struct spec_statistics *statistics; /* one per channel, or null: none */
 	int bands; /* of each band, too, where there are some */
 };

@@ -25,8 +25,14 @@ put_storage(struct spec_json *json, const struct spec_describe *describe)
 
 	spec_json_text(json, "file", describe->name);
 	spec_json_text(json, "format", describe->setup.format);
-	spec_json_text(
-		json, "compression", spec_settings_compression_name(image->compression));
+	spec_json_text(json, "compression",
+		strcmp(describe->setup.format, "OpenEXR") == 0
+			? spec_settings_compression_name(image->compression)
+			: NULL);
+	if (describe->setup.representation && *describe->setup.representation)
+		spec_json_text(json, "representation", describe->setup.representation);
+	else
+		spec_json_null(json, "representation");
 	spec_json_whole(json, "parts", storage->parts);
 	spec_json_whole(json, "part", storage->part);
 	spec_json_text(json, "part_name", image->part);

@@ -43,12 +43,16 @@ print_storage(FILE *stream, const struct spec_describe *describe)
 
 	label(stream, "format");
 	fprintf(stream, "%s", describe->setup.format);
-	if (compression)
+	if (compression && strcmp(describe->setup.format, "OpenEXR") == 0)
 		fprintf(stream, ", compression %s", compression);
 	if (storage->tile_width > 0)
 		fprintf(stream, ", tiles of %d x %d", storage->tile_width,
 			storage->tile_height);
 	fputc('\n', stream);
+	if (describe->setup.representation && *describe->setup.representation) {
+		label(stream, "stored as");
+		fprintf(stream, "%s\n", describe->setup.representation);
+	}
 	if (storage->parts > 1 || describe->image->part) {
 		label(stream, "part");
 		fprintf(stream, "%d of %d, counted from 0", storage->part, storage->parts);

@@ -287,9 +287,11 @@ spec_expanded_open(struct spec_reader **reader, const struct spec_represented *r
 		return SPEC_ENOMEM;
 	}
 	outer->inner = inner;
+	outer->base.storage = inner->storage;
 	*reader = &outer->base;
-	status = settle(outer, error);
-	return status;
+	status = spec_image_text(spec_reader_image(inner), "spec:representation",
+		&outer->base.representation, error);
+	return status == SPEC_OK ? settle(outer, error) : status;
 }
 
 /* ---- lines ---- */

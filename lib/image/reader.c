@@ -272,6 +272,7 @@ spec_reader_close(struct spec_reader *reader)
 	reader->format->close(reader);
 	spec_source_close(&reader->source);
 	spec_image_clear(&reader->image);
+	free(reader->representation);
 	free(reader);
 }
 
@@ -304,6 +305,12 @@ struct spec_storage
 spec_reader_storage(const struct spec_reader *reader)
 {
 	return reader->storage;
+}
+
+const char *
+spec_reader_representation(const struct spec_reader *reader)
+{
+	return reader->representation ? reader->representation : "";
 }
 
 int

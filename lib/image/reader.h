@@ -59,6 +59,9 @@ struct spec_storage {
 
 struct spec_storage spec_reader_storage(const struct spec_reader *reader);
 
+/* The text of spec:representation where what is read stands for something else, or "". */
+const char *spec_reader_representation(const struct spec_reader *reader);
+
 /* Lines that are stored, and so decoded, together: 1, 16, 32, or a tile's height. */
 int spec_reader_chunk_lines(const struct spec_reader *reader);
 

@@ -18,6 +18,7 @@ struct spec_reader {
 	struct spec_image image;
 	struct spec_limits limits;
 	struct spec_storage storage;
+	char *representation; /* of what is in the file, where that is not bands; or null */
 	struct spec_error *refused; /* while opening: where bad names are noted; or null */
 	int chunk_lines;            /* that are stored, and so decoded, together */
 	size_t line_bytes;          /* of one line, as it is stored uncompressed */
