@@ -101,7 +101,8 @@ help:
 # Building. Two files record what the rest was made with: after other flags everything is
 # compiled anew, after another list of objects the library is made anew.
 
-FLAGS = $(CC) $(CXX) $(AR) $(PATHFLAGS) $(ALLCFLAGS) $(ALLCXXFLAGS) $(CPPFLAGS) $(ALLLDFLAGS) $(LDLIBS)
+FLAGS = $(CC) $(CXX) $(AR) $(ALLCFLAGS) $(PATHFLAGS) $(ALLCXXFLAGS) $(CPPFLAGS) $(ALLLDFLAGS) \
+	$(LDLIBS)
 ifneq ($(strip $(file <$(BUILD)/flags)),$(strip $(FLAGS)))
 $(BUILD)/flags: FORCE
 endif

@@ -204,7 +204,7 @@ sample_flat(const struct spec_area *area, struct spec_vector from, const double 
 	double number, struct spec_area_sample *sample)
 {
 	struct spec_vector point, to;
-	double square, slant,
+	double square, across,
 		off = area->shape->kind == SPEC_SCENE_MESH
 			      ? sample_mesh(area, pair, number, &point, &sample->normal)
 			      : sample_disk(area, pair, &point, &sample->normal);
@@ -213,11 +213,12 @@ sample_flat(const struct spec_area *area, struct spec_vector from, const double 
 	square = spec_vector_dot(to, to);
 	if (!(square > 0))
 		return 0;
+	/* No quotient waits for another, nor the density for the root. */
+	across = fabs(spec_vector_dot(sample->normal, to));
 	sample->distance = sqrt(square);
 	sample->direction = spec_vector_scale(to, 1 / sample->distance);
-	slant = 1 / fabs(spec_vector_dot(sample->normal, sample->direction));
-	sample->density = square * slant / area->area;
-	sample->distance -= off * slant;
+	sample->density = square / (area->area * across) * sample->distance;
+	sample->distance -= off / across * sample->distance;
 	if (!(sample->distance > 0))
 		sample->distance = 0;
 	return sample->density < INFINITY;

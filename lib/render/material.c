@@ -212,28 +212,23 @@ scale_values(float *to, const float *from, float factor, size_t count)
 static double
 small_sine(double x)
 {
-	double z = x * x;
-	double high = 8.33333333332248946124e-03 +
-		      z * (-1.98412698298579493134e-04 +
-				  z * (2.75573137070700676789e-06 +
-					      z * (-2.50507602534068634195e-08 +
-							  z * 1.58969099521155010221e-10)));
+	double z = x * x, zz = z * z;
+	double low = -1.66666666666666324348e-01 + z * 8.33333333332248946124e-03;
+	double middle = -1.98412698298579493134e-04 + z * 2.75573137070700676789e-06;
+	double high = -2.50507602534068634195e-08 + z * 1.58969099521155010221e-10;
 
-	return x + x * z * (-1.66666666666666324348e-01 + z * high);
+	return x + x * z * (low + zz * (middle + zz * high));
 }
 
 static double
 small_cosine(double x)
 {
-	double z = x * x;
-	double high =
-		-1.38888888888741095749e-03 +
-		z * (2.48015872894767294178e-05 +
-			    z * (-2.75573143513906633035e-07 +
-					z * (2.08757232129817482790e-09 +
-						    z * -1.13596475577881948265e-11)));
+	double z = x * x, zz = z * z;
+	double low = 4.16666666666666019037e-02 + z * -1.38888888888741095749e-03;
+	double middle = 2.48015872894767294178e-05 + z * -2.75573143513906633035e-07;
+	double high = 2.08757232129817482790e-09 + z * -1.13596475577881948265e-11;
 
-	return 1 - z * (0.5 - z * (4.16666666666666019037e-02 + z * high));
+	return 1 - z * (0.5 - z * (low + zz * (middle + zz * high)));
 }
 
 /*

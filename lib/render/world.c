@@ -580,6 +580,7 @@ spec_world_shades(const struct spec_world *world, const struct spec_hit *hit,
 		return distance > 0 && spec_world_blocks(world, &ray, distance);
 	to = spec_vector_subtract(
 		spec_vector_along(hit->point, direction, distance), ray.origin);
-	ray.direction = spec_vector_unit(to);
-	return spec_world_blocks(world, &ray, spec_vector_length(to) * (1 - SHORT));
+	/* Of about length 1, which none of the shapes needs exactly: that saves a root. */
+	ray.direction = spec_vector_scale(to, 1 / distance);
+	return spec_world_blocks(world, &ray, distance * (1 - SHORT));
 }

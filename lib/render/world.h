@@ -44,7 +44,7 @@ int spec_world_meet(
 /* Where on its shape a hit lies: what few materials ask for. */
 void spec_world_describe(const struct spec_world *world, struct spec_hit *hit);
 
-/* Whether something stands between a point and distance [m] along a direction. */
+/* Whether something stands between a point and distance, in lengths of the direction. */
 int spec_world_blocks(
 	const struct spec_world *world, const struct spec_ray *ray, double distance);
 

@@ -173,15 +173,14 @@ choose(const struct fixture *f, const float *throughput, uint64_t seed, uint32_t
 	struct spec_vector *direction, float *weight)
 {
 	struct spec_sampler sampler;
-	float room[MOST_BANDS];
+	float room[MOST_BANDS] = {0};
 	struct spec_bands_scaled scaled = {.room = room};
 	double density;
 
 	spec_sampler_start(&sampler, seed, (int)(sample % 101), 0, sample);
 	density =
 		spec_material_sample(&f->surface, throughput, &sampler, direction, &scaled);
-	if (density >= 0)
-		multiply_out(f, &scaled, weight);
+	multiply_out(f, &scaled, weight);
 	return density;
 }
 

@@ -473,7 +473,7 @@ asking_has_a_syntax(void **state)
 {
 	static const char *const wrong[] = {"", "fourier", "fourier:", "fourier:x",
 		"fourier:9x", "fourier:-9", "composite:", "composite:4,", "composite:4,x",
-		"sampled", "sampled:400:700", "table", "fourier:9,9"};
+		"sampled:", "sampled:400:700", "table", "fourier:9,9"};
 	static const char *const outside[] = {"fourier:8", "fourier:0", "fourier:4099",
 		"composite:4,6", "composite:5000", "sampled:400:400:1"};
 	struct spec_representation r = {.extrapolate = SPEC_EXTRAPOLATE_ZERO};
@@ -484,6 +484,8 @@ asking_has_a_syntax(void **state)
 		spec_representation_parse("sampled:400:700:10", &r, NULL), SPEC_OK);
 	assert_true(r.kind == SPEC_SPECTRUM_SAMPLED && r.low_nm == 400 &&
 		    r.high_nm == 700 && r.count == 31);
+	assert_int_equal(spec_representation_parse("sampled", &r, NULL), SPEC_OK);
+	assert_true(r.kind == SPEC_SPECTRUM_SAMPLED && r.count == 0 && r.low_nm == 0);
 	assert_int_equal(spec_representation_parse("tabulated", &r, NULL), SPEC_OK);
 	assert_true(r.kind == SPEC_SPECTRUM_TABULATED && r.count == 0 && r.low_nm == 0);
 	assert_int_equal(spec_representation_parse("fourier:9", &r, NULL), SPEC_OK);
