@@ -35,9 +35,13 @@ open_file(Input &input, const char *path, struct spec_pictures_content *content,
 	content->height = spec.height;
 	content->channels = spec.nchannels;
 	content->integers = !spec.format.is_floating_point();
-	/* Where a file of whole numbers says nothing, OpenImageIO too takes it for sRGB. */
+	/*
+	 * Where a file of whole numbers says nothing, OpenImageIO too takes it for sRGB. It
+	 * calls PPM Rec709, as the format's page does; what writes PPM writes sRGB.
+	 */
 	const std::string colour = spec.get_string_attribute("oiio:ColorSpace");
-	content->encoded = colour == "sRGB" || (colour.empty() && content->integers);
+	content->encoded = colour == "sRGB" ||
+			   (content->integers && (colour.empty() || colour == "Rec709"));
 	return SPEC_OK;
 }
 
