@@ -84,6 +84,16 @@ largest_off() {
   cmp file.exr pipe.exr
 }
 
+@test "pictures of whole numbers are encoded as sRGB has it" {
+  printf 'P3 2 1 255 128 128 128 255 255 255' >grey.ppm
+  specconvert --from-rgb sigmoid -g 400:700:100 grey.ppm -o ppm.exr
+  pixel_holds ppm.exr ppm.exr 0,0 'is("T.400,000000nm", 0.21586050, 1e-6); is("T.700,000000nm", 0.21586050, 1e-6)'
+  pixel_holds ppm.exr ppm.exr 1,0 'is("T.600,000000nm", 1, 1e-7)'
+  spec2rgb ppm.exr -o grey.png
+  specconvert --from-rgb sigmoid -g 400:700:100 grey.png -o png.exr
+  pixel_holds ppm.exr png.exr 0,0 'is("T.500,000000nm", from["T.500,000000nm"], 0.01)'
+}
+
 @test "what is out of range is clamped, and told once" {
   colours rgb.exr --pattern constant:1.5
   specconvert --from-rgb sigmoid -g 400:700:100 rgb.exr -o t.exr 2>said
