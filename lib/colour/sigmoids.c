@@ -291,6 +291,7 @@ map_file(const char *path, struct spec_sigmoids *sigmoids, struct spec_error *er
 	int file = open(path, O_RDONLY | O_CLOEXEC);
 	enum spec_status status = SPEC_OK;
 	struct stat about;
+	void *memory = MAP_FAILED;
 
 	if (file < 0)
 		return spec_error_system(error, errno, "unable to open '%s'", path);
@@ -299,14 +300,13 @@ map_file(const char *path, struct spec_sigmoids *sigmoids, struct spec_error *er
 	else if (!S_ISREG(about.st_mode) || about.st_size == 0)
 		status = spec_error_set(
 			error, SPEC_EFORMAT, "'%s' is no table of sigmoids", path);
-	if (status == SPEC_OK) {
-		sigmoids->memory =
-			mmap(NULL, (size_t)about.st_size, PROT_READ, MAP_PRIVATE, file, 0);
+	if (status == SPEC_OK)
+		memory = mmap(NULL, (size_t)about.st_size, PROT_READ, MAP_PRIVATE, file, 0);
+	if (memory != MAP_FAILED) {
+		sigmoids->memory = memory;
 		sigmoids->mapped = (size_t)about.st_size;
-	}
-	if (sigmoids->memory == MAP_FAILED) {
+	} else if (status == SPEC_OK) {
 		status = spec_error_system(error, errno, "unable to map '%s'", path);
-		*sigmoids = (struct spec_sigmoids){0};
 	}
 	(void)close(file);
 	return status;

@@ -181,7 +181,7 @@ spec_sun_width(const struct spec_sun *sun, const double rgb[3])
 	distance = hypot(x, y);
 	if (distance < SAME_XY)
 		return SPEC_SUN_WIDEST_NM;
-	at = (atan2(y, x) / PI + 1) * (SPEC_SUN_DIRECTIONS / 2);
+	at = (atan2(y, x) / PI + 1) * (.5 * SPEC_SUN_DIRECTIONS);
 	k = at < SPEC_SUN_DIRECTIONS - 1 ? (size_t)at : SPEC_SUN_DIRECTIONS - 1;
 	purity = distance *
 		 (sun->nearness[k] +

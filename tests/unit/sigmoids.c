@@ -57,7 +57,7 @@ static void
 pick(int kind, int i, double rgb[3])
 {
 	for (int c = 0; c < 3; c++, i /= 16) {
-		rgb[c] = kind < 2    ? i % 16 / 15.
+		rgb[c] = kind < 2    ? (double)(i & 15) / 15
 			 : kind == 2 ? draw()
 			 : kind == 3 ? exp(-14 * draw())
 				     : 1 - .03 * draw();

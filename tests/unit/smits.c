@@ -239,7 +239,8 @@ mallett_meets_its_colours(void **state)
 	}
 	spec_matrix_apply(srgb.to_xyz, one, white);
 	for (int i = 0; i < 4096; i++) {
-		double rgb[3] = {i / 256 / 15., i / 16 % 16 / 15., i % 16 / 15.};
+		double rgb[3] = {(double)(i >> 8) / 15, (double)(i >> 4 & 15) / 15,
+			(double)(i & 15) / 15};
 		double got[3], wanted[3], lab1[3], lab2[3], off;
 
 		for (int c = 0; c < 3; c++)

@@ -57,7 +57,8 @@ sun_round_trip(void **state)
 		int missed = 0;
 
 		for (int i = 0; i < 4096; i++) {
-			double rgb[3] = {i / 256 / 15., i / 16 % 16 / 15., i % 16 / 15.};
+			double rgb[3] = {(double)(i >> 8) / 15, (double)(i >> 4 & 15) / 15,
+				(double)(i & 15) / 15};
 			struct spec_gaussians gaussians;
 			double off = miss(both[k], rgb, &gaussians);
 
