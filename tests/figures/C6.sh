@@ -75,13 +75,17 @@ round_trip() {
     awk '{ sum += $1; if ($1 > most) most = $1 } END { if (NR == 4096) printf "%.3g %.3g\n", most, sum / NR }'
 }
 
+# With sanitizers the table of sigmoids has half the side, and four times the error.
+coarser=1
+[[ $build != */san-* ]] || coarser=4
+
 # Bands of 5 nm, taken as values at their middles, add 0.1 to what the models leave.
 while read -r model most mean name; do
   read -r largest_off mean_off < <(round_trip "$model.exr")
   check "$name: largest CIEDE2000 of 16³ colours" "$largest_off" at-most "$most"
   check "$name: mean" "$mean_off" at-most "$mean"
-done <<'END'
-sigmoid 0.2 0.04 sigmoids
+done <<END
+sigmoid $(awk "BEGIN { print 0.2 * $coarser, 0.04 * $coarser }") sigmoids
 basis 0.2 0.1 Mallett and Yuksel
 smits 2.2 1.1 Smits, clamped to 1
 sun 4 0.25 Sun, whose Gaussians miss deep blues
