@@ -384,6 +384,28 @@ bins_of_any_width(void **state)
 	spec_upsampling_free(&whole);
 }
 
+/* However the weights of a bin's parts are rounded, white is not above 1. */
+static void
+wide_bins_stay_in_range(void **state)
+{
+	(void)state;
+	for (size_t x = 0; x < WIDTH; x++)
+		for (int c = 0; c < 3; c++)
+			colour[c][x] = x % 2 ? 1 : (float)(1 - 1e-6 * draw());
+	for (int width_nm = 6; width_nm <= 450; width_nm += 7) {
+		const double edges[2] = {360, 360 + width_nm};
+		struct spec_upsampling_setup setup = {SPEC_UPSAMPLING_SIGMOID,
+			SPEC_UPSAMPLING_ALBEDO, 1, NULL, edges, SPEC_EXTRAPOLATE_REFUSE};
+		struct spec_upsampling upsampling;
+
+		assert_int_equal(spec_upsampling_plan(&upsampling, &setup, NULL), SPEC_OK);
+		assert_int_equal(make_row(&upsampling), 0);
+		for (size_t x = 0; x < WIDTH; x++)
+			assert_true(plane[0][x] > .999 && plane[0][x] <= 1);
+		spec_upsampling_free(&upsampling);
+	}
+}
+
 static void
 plans_that_are_refused(void **state)
 {
@@ -455,6 +477,7 @@ main(void)
 		cmocka_unit_test(not_finite_gives_nan),
 		cmocka_unit_test(unbounded_is_linear),
 		cmocka_unit_test(bins_of_any_width),
+		cmocka_unit_test(wide_bins_stay_in_range),
 		cmocka_unit_test(plans_that_are_refused),
 	};
 
