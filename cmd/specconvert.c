@@ -310,8 +310,8 @@ take_colour(const struct job *job, const char *name, struct spec_curve *curve,
 
 	if (!spec_colour_curve_is_name(name))
 		return spec_error_set(error, SPEC_EUSAGE,
-			"--from-rgb is for images and colours ('#ff8000', 'rgb:1,0.5,0'), not "
-			"for the curve '%.200s'",
+			"--from-rgb is for images and colours ('#ff8000', 'rgb:1,0.5,0', "
+			"'hsv:30,1,1'), not for the curve '%.200s'",
 			name);
 	status = spec_colour_curve_parse(name, rgb, error);
 	return status == SPEC_OK ? spec_colour_curve(rgb, &job->colours, curve, error)

@@ -1,6 +1,7 @@
 #include "image/colourcurve.h"
 
 #include <float.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,6 +9,7 @@
 #include "base/memory.h"
 #include "base/number.h"
 #include "colour/basis.h"
+#include "colour/models.h"
 #include "colour/smits.h"
 #include "colour/space.h"
 #include "colour/sun.h"
@@ -16,14 +18,31 @@
 #include "spectrum/mean.h"
 
 #define LINEAR "rgb:"
+#define ROUNDED 1e-3 /* by how much three digits of YUV may leave the range of RGB */
 
 /* Smits' steps and a light are averaged each for itself over pieces of this share. */
 #define PIECES_PER_NM 10
 
+/* The model that a text begins with, as in "hsv:", or null. */
+static const struct spec_model *
+model_of(const char *text)
+{
+	const struct spec_model *model;
+
+	for (size_t i = 0; (model = spec_model_at(i)); i++) {
+		size_t length = strlen(model->name);
+
+		if (strncmp(text, model->name, length) == 0 && text[length] == ':')
+			return model;
+	}
+	return NULL;
+}
+
 int
 spec_colour_curve_is_name(const char *text)
 {
-	return text[0] == '#' || strncmp(text, LINEAR, strlen(LINEAR)) == 0;
+	return text[0] == '#' || strncmp(text, LINEAR, strlen(LINEAR)) == 0 ||
+	       model_of(text) != NULL;
 }
 
 static enum spec_status
@@ -40,30 +59,75 @@ parse_code(const char *text, double rgb[3], struct spec_error *error)
 	return SPEC_OK;
 }
 
-enum spec_status
-spec_colour_curve_parse(const char *text, double rgb[3], struct spec_error *error)
+/* So many numbers with commas between them; form: what the text should be. */
+static enum spec_status
+parse_numbers(const char *text, const char *form, size_t count, const double *least,
+	const double *most, double *value, struct spec_error *error)
 {
-	const char *at = text + strlen(LINEAR);
+	const char *at = strchr(text, ':') + 1;
 
-	if (text[0] == '#')
-		return parse_code(text, rgb, error);
-	for (int i = 0; i < 3; i++) {
-		size_t length = i < 2 ? strcspn(at, ",") : strlen(at);
+	for (size_t i = 0; i < count; i++) {
+		size_t length = i + 1 < count ? strcspn(at, ",") : strlen(at);
 		char number[64];
 		enum spec_status status;
 
-		if (length >= sizeof number || (i < 2 && at[length] != ','))
-			return spec_error_set(error, SPEC_EUSAGE,
-				"'%.100s' is no colour rgb:R,G,B", text);
+		if (length >= sizeof number || (i + 1 < count && at[length] != ','))
+			return spec_error_set(
+				error, SPEC_EUSAGE, "'%.100s' is no colour %s", text, form);
 		memcpy(number, at, length);
 		number[length] = '\0';
-		status = spec_number_parse(
-			number, 0, FLT_MAX, "a component of the colour", &rgb[i], error);
+		status = spec_number_parse(number, least[i], most[i],
+			"a component of the colour", &value[i], error);
 		if (status != SPEC_OK)
 			return status;
 		at += length + 1;
 	}
 	return SPEC_OK;
+}
+
+/* A colour of a model, which is encoded. */
+static enum spec_status
+parse_model(const struct spec_model *model, const char *text, double rgb[3],
+	struct spec_error *error)
+{
+	static const char *const parts[3] = {"red", "green", "blue"};
+	double margin = model->kind == SPEC_MODEL_YUV ? ROUNDED : 0;
+	double value[SPEC_MODEL_MOST], least[SPEC_MODEL_MOST], most[SPEC_MODEL_MOST];
+	char form[32];
+	enum spec_status status;
+
+	for (size_t i = 0; i < model->components; i++) {
+		least[i] = model->least[i] - margin;
+		most[i] = model->most[i] + margin;
+	}
+	(void)snprintf(form, sizeof form, "%s:%s,%s,%s%s%s", model->name,
+		model->component[0], model->component[1], model->component[2],
+		model->components > 3 ? "," : "",
+		model->components > 3 ? model->component[3] : "");
+	status = parse_numbers(text, form, model->components, least, most, value, error);
+	if (status != SPEC_OK)
+		return status;
+	spec_model_to_rgb(model, value, rgb);
+	for (int i = 0; i < 3; i++) {
+		if (!(rgb[i] >= -ROUNDED && rgb[i] <= 1 + ROUNDED))
+			return spec_error_set(error, SPEC_ERANGE,
+				"'%.100s' is no colour of RGB: its %s is %.4g, not in [0, 1]",
+				text, parts[i], rgb[i]);
+		rgb[i] = spec_srgb_decode(fmin(fmax(rgb[i], 0), 1));
+	}
+	return SPEC_OK;
+}
+
+enum spec_status
+spec_colour_curve_parse(const char *text, double rgb[3], struct spec_error *error)
+{
+	static const double least[3] = {0}, most[3] = {FLT_MAX, FLT_MAX, FLT_MAX};
+	const struct spec_model *model = model_of(text);
+
+	if (text[0] == '#')
+		return parse_code(text, rgb, error);
+	return model ? parse_model(model, text, rgb, error)
+		     : parse_numbers(text, "rgb:R,G,B", 3, least, most, rgb, error);
 }
 
 /* Smits' mean over a bin, or that of its product with a light. */

@@ -6,12 +6,14 @@
 #include "image/fromrgb.h"
 #include "spectrum/curve.h"
 
-/* Whether a text is meant for a colour: it begins with '#' or "rgb:". */
+/* Whether a text is meant for a colour: it begins with '#', "rgb:" or a model's name. */
 int spec_colour_curve_is_name(const char *text);
 
 /*
- * "#rrggbb", encoded as sRGB has it, or "rgb:R,G,B", linear numbers >= 0. Error
- * (SPEC_EUSAGE, SPEC_ERANGE): another text.
+ * "#rrggbb", encoded as sRGB has it, "rgb:R,G,B", linear numbers >= 0, or a colour of a
+ * model (colour/models.h) over sRGB's codes: "hsv:H,S,V", "hsl:H,S,L", "yuv:Y,U,V",
+ * "cmyk:C,M,Y,K". Errors (SPEC_EUSAGE, SPEC_ERANGE): another text; YUV that is no colour of
+ * RGB by more than 0.001.
  */
 enum spec_status spec_colour_curve_parse(
 	const char *text, double rgb[3], struct spec_error *error);

@@ -200,3 +200,34 @@ largest_off() {
   [[ $stderr = *'a component of the colour is 1.5, not in [0, 1]' ]]
   fails_cleanly specconvert '#ff8000'
 }
+
+@test "one colour in every model has one spectrum" {
+  local text
+  # #ff8000 is 128 / 255 of green, cornflower blue #6495ed.
+  specconvert --from-rgb basis '#ff8000' >code
+  for text in hsv:30.11764705882353,1,1 hsl:30.11764705882353,1,.5 cmyk:0,.498039215686274,1,0; do
+    specconvert --from-rgb basis "$text" >model
+    paste -d ' ' <(grep '^[0-9]' code) <(grep '^[0-9]' model) |
+      awk '{ off = $2 - $4; if (off * off > 1e-24) exit 1 } END { exit NR != 81 }' || complain "$text:" "$(head -n 1 model)"
+  done
+  # Of television's red, rounded to three digits, no component is left outside.
+  [ "$(specconvert --from-rgb basis yuv:.299,-.147,.615 | sed -n 's/# title: RGB 1 \([0-9.e-]*\) \([0-9.e-]*\)$/\1 \2/p' |
+    awk '{ print ($1 >= 0 && $1 < 1e-3 && $2 >= 0 && $2 < 1e-3) }')" = 1 ]
+  specconvert --from-rgb basis --as light 'hsv:218.54,.578,.929' | grep -q '^# title: RGB 0.12.* 0.30.* 0.84'
+}
+
+@test "colours of models that are none" {
+  fails_cleanly specconvert --from-rgb basis hsv:1,2
+  [[ $stderr = *"'hsv:1,2' is no colour hsv:H,S,V" ]]
+  fails_cleanly specconvert --from-rgb basis cmyk:0,0,0
+  [[ $stderr = *"'cmyk:0,0,0' is no colour cmyk:C,M,Y,K" ]]
+  fails_cleanly specconvert --from-rgb basis hsl:361,1,1
+  [[ $stderr = *"outside 0..360: '361'" ]]
+  fails_cleanly specconvert --from-rgb basis hsl:1,1,1,1
+  fails_cleanly specconvert --from-rgb basis hsv:30,50%,1
+  fails_cleanly specconvert --from-rgb basis hsv:nan,1,1
+  fails_cleanly specconvert --from-rgb basis yuv:1,.3,.3
+  [[ $stderr = *"'yuv:1,.3,.3' is no colour of RGB: its red is 1.342, not in [0, 1]" ]]
+  fails_cleanly specconvert --from-rgb basis lab:50,0,0
+  fails_cleanly specconvert hsv:30,1,1
+}
