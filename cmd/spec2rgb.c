@@ -8,6 +8,7 @@
 #include "cli/progress.h"
 #include "colour/observer.h"
 #include "image/develop.h"
+#include "image/separate.h"
 #include "spectrum/lookup.h"
 
 #define NOTICEABLE 0.01 /* of Y outside the image's range: worth a warning */
@@ -21,6 +22,8 @@ static const struct cli_option options[] = {
 	{'f', "format", "SUFFIX",
 		"of the output, such as ppm (default: the suffix of -o, else png)"},
 	{0, "bits", "8|16|32", "bits per sample (default: as the format has them)"},
+	{0, "model", "hsv|hsl|yuv|cmyk",
+		"the components of a colour model, as an OpenEXR image"},
 	{0},
 };
 
@@ -35,6 +38,7 @@ static const struct cli_program program = {
 
 struct job {
 	const char *input, *observer, *illuminant, *adapt, *format;
+	const struct spec_model *model; /* or null */
 	double exposure;
 	int bits;
 	struct spec_settings settings;
@@ -59,6 +63,9 @@ take_option(void *state, const char *name, const char *value, struct spec_error 
 			value, -100, 100, "the exposure", &job->exposure, error);
 	} else if (strcmp(name, "format") == 0) {
 		job->format = value;
+	} else if (strcmp(name, "model") == 0) {
+		job->model = spec_model_find(value, error);
+		status = job->model ? SPEC_OK : SPEC_EUSAGE;
 	} else if (strcmp(name, "bits") == 0) {
 		status = spec_number_parse_whole(
 			value, 8, 32, "the number of bits", &bits, error);
@@ -76,6 +83,8 @@ parse(struct cli *cli, struct job *job)
 	job->input = cli_take_all(cli, "image", take_option, job);
 	if (!job->input)
 		job->input = "-";
+	if (job->model && (job->format || job->bits))
+		cli_usage(cli, "--format and --bits are for pictures, not for --model");
 }
 
 /* The sums that the options ask for. */
@@ -176,7 +185,9 @@ main(int argc, char **argv)
 	status = plan(&job, reader, &rgb, &error);
 	cli_check(&cli, status, &error);
 
-	status = develop(&job, reader, &rgb, &seen, &error);
+	status = job.model ? spec_separate_run(&seen, reader, &rgb, job.model,
+				     &job.settings, argc, argv, &error)
+			   : develop(&job, reader, &rgb, &seen, &error);
 	cli_progress_end(&progress);
 	cli_check(&cli, status, &error);
 	warn(&cli, &job, spec_reader_name(reader), &rgb, &seen);

@@ -451,3 +451,75 @@ quiet() {
   spec2rgb -q --progress a.exr -o a.png 2>said
   [ ! -s said ]
 }
+
+# Red and green over blue and white, as light of three bands under an observer of three steps.
+four() {
+  printf '%s\n' '# quantity: spectral power distribution' '# columns: wavelength_nm a b c d' \
+    '400 0 0 0 0' '450 0 0 1 1' '500 0 0 1 1' '550 0 1 0 1' '600 0 1 0 1' '650 1 0 0 1' '700 1 0 0 1' '750 0 0 0 0' >four.spd
+  specconvert four.spd --patches 2x2 -o four.exr
+}
+
+@test "--model: a colour's components as channels of floats" {
+  local linear
+  four
+  spec2rgb four.exr -o rgb.exr
+  spec2rgb --model hsv four.exr -o hsv.exr
+  spec2rgb --model hsl four.exr -o hsl.exr
+  spec2rgb --model yuv four.exr -o yuv.exr
+  spec2rgb --model cmyk -j 1 four.exr | cat >cmyk.exr
+  has_channels hsv.exr H S V
+  has_channels hsl.exr H L S
+  has_channels yuv.exr U V Y
+  has_channels cmyk.exr C K M Y
+  for at in 0,0 1,0 0,1 1,1; do
+    linear=$(layers --print $at rgb.exr)
+    # The definitions, from the codes of sRGB, clipped.
+    {
+      echo "$linear"
+      echo hsv; layers --print $at hsv.exr
+      echo hsl; layers --print $at hsl.exr
+      echo yuv; layers --print $at yuv.exr
+      echo cmyk; layers --print $at cmyk.exr
+    } | awk '
+      function code(v) {
+        v = v < 0 ? 0 : v > 1 ? 1 : v
+        return v <= 0.0031308 ? 12.92 * v : 1.055 * exp(log(v) / 2.4) - 0.055
+      }
+      function off(a, b) { if (a - b > 2e-6 || b - a > 2e-6) { print model, a, b; bad = 1 } seen++ }
+      NF == 1 { model = $1; next }
+      { of[model $1] = $2 }
+      END {
+        r = code(of["R"]); g = code(of["G"]); b = code(of["B"])
+        most = r > g ? r : g; most = most > b ? most : b
+        least = r < g ? r : g; least = least < b ? least : b
+        off(of["hsvV"], most); off(of["hsvS"], (most - least) / most)
+        off(of["hslL"], (most + least) / 2)
+        h = most == r ? (g - b) / (most - least) : most == g ? 2 + (b - r) / (most - least) : 4 + (r - g) / (most - least)
+        h = h < 0 ? 60 * h + 360 : 60 * h
+        off(of["hsvH"] / 360, h / 360); off(of["hslH"], of["hsvH"])
+        y = 0.299 * r + 0.587 * g + 0.114 * b
+        off(of["yuvY"], y); off(of["yuvU"], 0.493 * (b - y)); off(of["yuvV"], 0.877 * (r - y))
+        off(of["cmykK"], 1 - most); off((1 - of["cmykC"]) * most, r); off((1 - of["cmykY"]) * most, b)
+        exit bad || seen != 11
+      }' || complain "at $at" "$linear"
+  done
+}
+
+@test "--model: what is not finite, and what does not go with it" {
+  spectral a.exr --size 16x8 --pattern nan:3,2,5
+  spec2rgb --model yuv a.exr -o yuv.exr 2>said
+  [ "$(<said)" = 'spec2rgb: warning: a.exr: 1 pixel is not finite, the first at 3,2' ]
+  layers --print 3,2 yuv.exr | grep -qi 'Y.*nan'
+  run ! grep -qi nan <(layers --print 2,2 yuv.exr)
+  spec2rgb -q --model yuv -j 4 a.exr -o four.exr
+  for y in 0 3 7; do
+    [ "$(layers --print 5,$y four.exr)" = "$(layers --print 5,$y yuv.exr)" ]
+  done
+  fails_cleanly spec2rgb --model lab a.exr -o x.exr
+  [[ $stderr = *"'lab' is not hsv, hsl, yuv or cmyk" ]]
+  fails_cleanly spec2rgb --model hsv --bits 16 a.exr -o x.exr
+  fails_cleanly spec2rgb --model hsv -f png a.exr -o x.exr
+  fails_cleanly spec2rgb --model hsv a.exr -o x.png
+  fails_cleanly spec2rgb --model hsv a.exr -o x.tif
+  no_leftovers . a.exr yuv.exr four.exr said
+}
