@@ -147,3 +147,17 @@ largest() {
 transfer() {
   awk -v polarisation="$1" -v angle="$2" -v stack="$3" -f "${spectra%/*}/tests/figures/transfer.awk"
 }
+
+# display: an observer (spd(5)) who sees a display's three colours, those of sRGB: bands at 650, 550
+# and 450 nm are red, green and blue to spec2rgb, and 1 in all of them is white.
+display() {
+  awk 'BEGIN {
+    print "# title: the primaries of sRGB, one in each of three bands"
+    print "# source: IEC 61966-2-1:1999"
+    print "# columns: wavelength_nm x y z"
+    of[450] = "0.1804807884 0.0721923154 0.9505321522"
+    of[550] = "0.3575843394 0.7151686788 0.1191947798"
+    of[650] = "0.4123907993 0.2126390059 0.0193308187"
+    for (nm = 400; nm <= 700; nm += 50) print nm, nm in of ? of[nm] : "0 0 0"
+  }'
+}
