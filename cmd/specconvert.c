@@ -3,49 +3,74 @@
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
-#include <unistd.h>
 
 #include "base/memory.h"
 #include "base/number.h"
-#include "base/source.h"
 #include "cli/options.h"
 #include "cli/progress.h"
 #include "image/colourcurve.h"
 #include "image/convert.h"
 #include "image/fromrgb.h"
+#include "image/gridof.h"
 #include "image/kind.h"
 #include "image/patches.h"
 #include "image/represented.h"
+#include "image/strip.h"
 #include "image/writer.h"
-#include "spectrum/lookup.h"
-#include "spectrum/product.h"
+#include "spectrum/abscissa.h"
+#include "spectrum/air.h"
+#include "spectrum/operation.h"
 #include "spectrum/reshape.h"
 #include "spectrum/spd.h"
 
 #define MOST_CURVES 4096
+#define LEAST 1e-3 /* of the most light, for --reflectance-of */
 
 static const struct cli_option options[] = {
-	{'g', "grid", "LO:HI:STEP", "new bands, linear between the old ones [nm]"},
+	{'g', "grid", "LO:HI:STEP|FILE|native",
+		"new bands, between the old ones [nm]; those of a FILE or SPD"},
+	{0, "interp", "linear|nearest|left|sprague",
+		"what lies between the old ones (default: linear, or as a\n"
+		"curve's file says)"},
+	{0, "rebin", NULL, "the bins of --grid get the energy of the old bins"},
 	{'b', "band", "WAVELENGTH", "keep this band; may be given several times"},
-	{'m', "multiply", "SPD", "multiply by a curve; may be given several times"},
+	{0, "bands-only", NULL, "drop every channel that is no band"},
+	{0, "per", "nm|band", "make values densities, or integrals over bands"},
+	{0, "to-air", NULL, "make wavelengths in vacuum those in air"},
+	{0, "to-vacuum", NULL, "make wavelengths in air those in vacuum"},
+	{0, "input-unit", "nm|um|THz|cm-1", "what a curve is tabulated over (default: nm)"},
+	{'m', "multiply", "SPD",
+		"multiply by a curve; this and the following may be\n"
+		"given several times, and are done in the order given"},
+	{0, "divide", "SPD", "divide by a curve"},
+	{0, "add", "SPD", "add a curve"},
 	{'s', "scale", "X", "multiply by a number"},
+	{0, "raise", "X", "raise to a power"},
+	{0, "clamp", "A..B", "bound from below and above"},
 	{0, "illuminate", "SPD", "turn reflectance into the light it sends back"},
+	{0, "reflectance-of", "SPD", "turn light into the reflectance under this light"},
+	{0, "least", "X",
+		"light below X of its most tells no reflectance\n(default: 0.001)"},
 	{0, "from-rgb", "smits|sun|sigmoid|basis",
 		"make spectra of the colours of an image, or of '#rrggbb'"},
 	{0, "as", "reflectance|light|unbounded",
 		"what they become (default: reflectance; after sun, light)"},
 	{0, "extrapolate", "refuse|zero|constant",
 		"what lies outside the data (default: refuse)"},
-	{0, "interp", "linear|nearest|left|sprague",
-		"what lies between a curve's samples (default: as its file says, or linear)"},
 	{0, "to", "KIND",
-		"sampled:LO:HI:STEP, tabulated, fourier:N, composite:K or composite:K,N"},
+		"another representation: sampled[:LO:HI:STEP], tabulated,\n"
+		"fourier:N, composite:K or composite:K,N"},
 	{0, "crop", "X0,Y0,X1,Y1",
 		"keep these pixels of the data window; x1, y1 are not in it"},
 	{0, "downsample", "N", "mean of N x N pixels"},
 	{0, "patches", "COLUMNSxROWS", "make a chart of patches from curves"},
 	{0, "patch", "PIXELS", "side of a patch (default: 1)"},
 	{0, "gap", "PIXELS", "black between the patches (default: 0)"},
+	{0, "strip", "HEIGHT",
+		"make a picture of a curve: a pixel for each wavelength,\n"
+		"red, green and blue its columns"},
+	{0, "scaling", "none|global|channel",
+		"divide a strip by its greatest value (default: none)"},
 	{'f', "format", "exr|envi|hsr|tiff|bands|spd",
 		"of the output (default: the suffix of -o, else the input's)"},
 	{0},
@@ -64,21 +89,23 @@ static const struct cli_program program = {
 struct job {
 	const char **input;
 	size_t inputs;
+	const char *grid_text; /* of --grid, or null */
 	struct spec_grid grid, bands;
-	struct spec_curve *multiply;
-	struct spec_curve illuminate;
-	size_t input_room, multiply_room, band_room;
+	double *edges_nm; /* of the grid, where its file tells them */
+	struct spec_operation *operation;
+	size_t input_room, operation_room, band_room;
+	enum spec_abscissa abscissa;
 	struct spec_convert_setup setup;
-	struct spec_patches_setup patches;
-	struct spec_fromrgb_setup colours;
-	int from_rgb, as;           /* the options were given */
-	unsigned long long clamped; /* pixels whose colour was out of range */
-	int text;                   /* the output is: 1 text, 0 an image, -1 as the input */
+	int has_interpolation, has_to; /* the options were given */
 	struct spec_representation to;
-	int has_to;
-	enum spec_interpolate interpolate;
-	int has_interpolate;
+	struct spec_patches_setup patches;
+	int strip;                       /* its height, or 0 */
+	enum spec_strip_scaling scaling; /* of the strip */
+	struct spec_fromrgb_setup colours;
+	int from_rgb, as;             /* the options were given */
+	unsigned long long clamped;   /* pixels whose colour was out of range */
 	unsigned long long overflows; /* samples that --half made infinite */
+	int text; /* the output is: 1 text, 0 an image, -1 as the input */
 	struct spec_settings settings;
 };
 
@@ -127,19 +154,40 @@ take_band(struct job *job, const char *text, struct spec_error *error)
 }
 
 static enum spec_status
-take_multiply(struct job *job, const char *text, struct spec_error *error)
+take_operation(struct job *job, const char *name, const char *text, int *known,
+	struct spec_error *error)
 {
-	void *list = job->multiply;
-	enum spec_status status = spec_memory_grow(&list, &job->multiply_room,
-		job->setup.multiplies + 1, sizeof *job->multiply, "curves", error);
+	void *list = job->operation;
+	enum spec_status status = spec_memory_grow(&list, &job->operation_room,
+		job->setup.operations + 1, sizeof *job->operation, "operations", error);
 
-	job->multiply = list;
+	*known = 1;
+	job->operation = list;
 	if (status == SPEC_OK)
-		status = spec_lookup_factor(
-			text, &job->multiply[job->setup.multiplies], error);
-	if (status == SPEC_OK)
-		job->setup.multiplies++;
+		status = spec_operation_parse(
+			name, text, &job->operation[job->setup.operations], known, error);
+	if (status == SPEC_OK && *known)
+		job->setup.operations++;
 	return status;
+}
+
+static enum spec_status
+take_per(struct job *job, const char *text, struct spec_error *error)
+{
+	if (strcmp(text, "nm") != 0 && strcmp(text, "band") != 0)
+		return spec_error_set(error, SPEC_EUSAGE, "'%s' is not nm or band", text);
+	job->setup.per = *text == 'n' ? SPEC_CONVERT_PER_NM : SPEC_CONVERT_PER_BAND;
+	return SPEC_OK;
+}
+
+static enum spec_status
+take_medium(struct job *job, enum spec_medium medium, struct spec_error *error)
+{
+	if (job->setup.medium != SPEC_MEDIUM_UNKNOWN && job->setup.medium != medium)
+		return spec_error_set(
+			error, SPEC_EUSAGE, "--to-air and --to-vacuum exclude each other");
+	job->setup.medium = medium;
+	return SPEC_OK;
 }
 
 static enum spec_status
@@ -196,48 +244,61 @@ take_input(struct job *job, const char *path, struct spec_error *error)
 }
 
 static enum spec_status
-take(void *state, const char *name, const char *value, struct spec_error *error)
+take_rule(struct job *job, const char *text, struct spec_error *error)
 {
-	struct job *job = state;
-	int known;
+	job->has_interpolation = 1;
+	return spec_interpolate_parse(text, &job->setup.interpolation, error);
+}
 
-	if (!name)
-		return take_input(job, value, error);
-	if (strcmp(name, "grid") == 0) {
-		spec_grid_free(&job->grid);
-		return spec_grid_parse(value, &job->grid, error);
-	}
-	if (strcmp(name, "band") == 0)
+static enum spec_status
+take_representation(struct job *job, const char *text, struct spec_error *error)
+{
+	job->has_to = 1;
+	return spec_representation_parse(text, &job->to, error);
+}
+
+/* What is about bands and values. */
+static enum spec_status
+take_spectral(struct job *job, const char *name, const char *value, int *known,
+	struct spec_error *error)
+{
+	struct spec_convert_setup *setup = &job->setup;
+
+	*known = 1;
+	if (strcmp(name, "grid") == 0)
+		job->grid_text = value;
+	else if (strcmp(name, "interp") == 0)
+		return take_rule(job, value, error);
+	else if (strcmp(name, "to") == 0)
+		return take_representation(job, value, error);
+	else if (strcmp(name, "rebin") == 0)
+		setup->rebin = 1;
+	else if (strcmp(name, "band") == 0)
 		return take_band(job, value, error);
-	if (strcmp(name, "multiply") == 0)
-		return take_multiply(job, value, error);
-	if (strcmp(name, "scale") == 0)
+	else if (strcmp(name, "bands-only") == 0)
+		setup->bands_only = 1;
+	else if (strcmp(name, "per") == 0)
+		return take_per(job, value, error);
+	else if (strcmp(name, "to-air") == 0)
+		return take_medium(job, SPEC_MEDIUM_AIR, error);
+	else if (strcmp(name, "to-vacuum") == 0)
+		return take_medium(job, SPEC_MEDIUM_VACUUM, error);
+	else if (strcmp(name, "input-unit") == 0)
+		return spec_abscissa_parse(value, &job->abscissa, error);
+	else if (strcmp(name, "least") == 0)
 		return spec_number_parse(
-			value, -1e30, 1e30, "the scale", &job->setup.scale, error);
-	if (strcmp(name, "illuminate") == 0) {
-		spec_curve_free(&job->illuminate);
-		return spec_lookup_light(value, &job->illuminate, error);
-	}
-	if (strcmp(name, "from-rgb") == 0)
-		return take_model(job, value, error);
-	if (strcmp(name, "as") == 0)
-		return take_use(job, value, error);
-	if (strcmp(name, "extrapolate") == 0)
-		return take_extrapolate(job, value, error);
-	if (strcmp(name, "to") == 0) {
-		job->has_to = 1;
-		return spec_representation_parse(value, &job->to, error);
-	}
-	if (strcmp(name, "interp") == 0) {
-		job->has_interpolate = 1;
-		return spec_interpolate_parse(value, &job->interpolate, error);
-	}
-	if (strcmp(name, "crop") == 0) {
-		job->setup.has_crop = 1;
-		return spec_settings_crop(value, &job->setup.crop, error);
-	}
-	if (strcmp(name, "downsample") == 0)
-		return take_pixels(&job->setup.downsample, 1, "the factor", value, error);
+			value, 0, 1, "the least light", &setup->least, error);
+	else
+		return take_operation(job, name, value, known, error);
+	return SPEC_OK;
+}
+
+/* What is about charts, strips and colours. */
+static enum spec_status
+take_picture(struct job *job, const char *name, const char *value, int *known,
+	struct spec_error *error)
+{
+	*known = 1;
 	if (strcmp(name, "patches") == 0)
 		return spec_number_parse_size(value, MOST_CURVES, "the chart",
 			&job->patches.columns, &job->patches.rows, error);
@@ -246,9 +307,67 @@ take(void *state, const char *name, const char *value, struct spec_error *error)
 			&job->patches.patch, 1, "the side of a patch", value, error);
 	if (strcmp(name, "gap") == 0)
 		return take_pixels(&job->patches.gap, 0, "the gap", value, error);
+	if (strcmp(name, "strip") == 0)
+		return take_pixels(&job->strip, 1, "the height", value, error);
+	if (strcmp(name, "scaling") == 0)
+		return spec_strip_parse(value, &job->scaling, error);
+	if (strcmp(name, "from-rgb") == 0)
+		return take_model(job, value, error);
+	if (strcmp(name, "as") == 0)
+		return take_use(job, value, error);
+	*known = 0;
+	return SPEC_OK;
+}
+
+static enum spec_status
+take(void *state, const char *name, const char *value, struct spec_error *error)
+{
+	struct job *job = state;
+	enum spec_status status = SPEC_OK;
+	int known = 0;
+
+	if (!name)
+		return take_input(job, value, error);
+	status = take_spectral(job, name, value, &known, error);
+	if (!known && status == SPEC_OK)
+		status = take_picture(job, name, value, &known, error);
+	if (known || status != SPEC_OK)
+		return status;
+	if (strcmp(name, "extrapolate") == 0)
+		return take_extrapolate(job, value, error);
+	if (strcmp(name, "crop") == 0) {
+		job->setup.has_crop = 1;
+		return spec_settings_crop(value, &job->setup.crop, error);
+	}
+	if (strcmp(name, "downsample") == 0)
+		return take_pixels(&job->setup.downsample, 1, "the factor", value, error);
 	if (strcmp(name, "format") == 0)
 		return take_format(job, value, error);
 	return spec_settings_take(&job->settings, name, value, &known, error);
+}
+
+/* What makes no sense together, or alone. */
+static void
+check_spectral(const struct cli *cli, struct job *job)
+{
+	int divides = 0;
+
+	for (size_t i = 0; i < job->setup.operations; i++)
+		divides |= job->operation[i].kind == SPEC_OPERATION_REFLECTANCE_OF;
+	if (job->grid_text && job->bands.count > 0)
+		cli_usage(cli, "--grid and --band exclude each other");
+	if (job->setup.rebin && !job->grid_text)
+		cli_usage(cli, "--rebin needs the bins of a --grid");
+	if (job->grid_text && job->has_to)
+		cli_usage(cli, "--grid and --to exclude each other");
+	if (job->has_interpolation && job->setup.rebin)
+		cli_usage(cli, "--rebin and --interp exclude each other");
+	if (job->setup.least >= 0 && !divides)
+		cli_usage(cli, "--least is for --reflectance-of");
+	if (job->setup.least < 0)
+		job->setup.least = LEAST;
+	if (job->as && !job->from_rgb)
+		cli_usage(cli, "--as goes with --from-rgb");
 }
 
 static void
@@ -258,18 +377,20 @@ parse(struct cli *cli, struct job *job, struct spec_error *error)
 	cli_take_each(cli, take, job);
 	if (job->inputs == 0)
 		cli_check(cli, take_input(job, "-", error), error);
-	if (job->grid.count > 0 && job->bands.count > 0)
-		cli_usage(cli, "--grid and --band exclude each other");
-	if (job->as && !job->from_rgb)
-		cli_usage(cli, "--as goes with --from-rgb");
+	check_spectral(cli, job);
 	if (!job->as && job->colours.model == SPEC_UPSAMPLING_SUN)
 		job->colours.use = SPEC_UPSAMPLING_LIGHT;
-	if (job->grid.count > 0 && job->has_to)
-		cli_usage(cli, "--grid and --to exclude each other");
+	if (job->grid_text && strcmp(job->grid_text, "native") == 0)
+		job->setup.rebin = 0;
+	else if (job->grid_text)
+		cli_check(cli,
+			spec_grid_of(job->grid_text, &job->settings, &job->grid,
+				&job->edges_nm, error),
+			error);
 	job->setup.grid = job->grid.count > 0 ? &job->grid : NULL;
+	job->setup.edges_nm = job->edges_nm;
 	job->setup.bands = job->bands.count > 0 ? &job->bands : NULL;
-	job->setup.multiply = job->multiply;
-	job->setup.illuminate = job->illuminate.count > 0 ? &job->illuminate : NULL;
+	job->setup.operation = job->operation;
 	job->setup.half = job->patches.half = job->colours.half = job->settings.half;
 	job->colours.grid = job->setup.grid;
 }
@@ -318,35 +439,27 @@ take_colour(const struct job *job, const char *name, struct spec_curve *curve,
 				 : status;
 }
 
-/* A colour's spectrum after --grid, --multiply and --scale. */
+/* One curve, or a colour's, after all that is done to it. */
 static enum spec_status
-load_colour(const struct job *job, const char *name, struct spec_curve *curve,
-	struct spec_error *error)
+load_curve(const struct cli *cli, const struct job *job, const struct spec_reshape *reshape,
+	const char *name, struct spec_curve *curve, struct spec_error *error)
 {
-	const struct spec_curve *factor = job->setup.multiply;
-	struct spec_curve next;
-	enum spec_status status = take_colour(job, name, curve, error);
+	struct spec_reshape_notes notes = {0};
+	enum spec_status status =
+		job->from_rgb ? take_colour(job, name, curve, error)
+			      : spec_reshape_curve(name, reshape, curve, &notes, error);
 
-	for (size_t i = 0; i < job->setup.multiplies && status == SPEC_OK; i++) {
-		status = spec_curve_multiply(curve, &factor[i], &next, error);
-		if (status == SPEC_OK) {
-			spec_curve_free(curve);
-			*curve = next;
-		}
-	}
-	if (status == SPEC_OK && job->setup.grid) {
-		status = spec_curve_resample(
-			curve, job->setup.grid, job->setup.extrapolate, &next, error);
-		if (status == SPEC_OK) {
-			spec_curve_free(curve);
-			*curve = next;
-		}
-	}
-	for (size_t i = 0; i < curve->count * curve->columns && status == SPEC_OK; i++)
-		curve->value[i] *= job->setup.scale;
-	if (status == SPEC_OK && job->setup.scale != 1)
-		status = spec_curve_set_text(
-			&curve->unit, "", error); /* it was of other numbers */
+	if (status == SPEC_OK && job->from_rgb)
+		status = spec_reshape_loaded(name, reshape, curve, &notes, error);
+	if (status != SPEC_OK || job->settings.quiet)
+		return status;
+	if (notes.left)
+		cli_warn(cli, "%s: states no quantity: its values were left as they are",
+			name);
+	if (*notes.outside)
+		cli_warn(cli, "%s: has nothing at %s: taken %s", name, notes.outside,
+			reshape->extrapolate == SPEC_EXTRAPOLATE_CONSTANT ? "as at its end"
+									  : "for 0");
 	return status;
 }
 
@@ -376,44 +489,87 @@ write_chart(struct job *job, const struct spec_curve *curve, int argc, char **ar
 }
 
 static enum spec_status
+check_strip(const struct job *job, struct spec_error *error)
+{
+	if (job->strip == 0)
+		return job->scaling == SPEC_STRIP_AS_IT_IS
+			       ? SPEC_OK
+			       : spec_error_set(
+					 error, SPEC_EUSAGE, "--scaling is for --strip");
+	if (job->text >= 0 || job->patches.columns > 0 || job->inputs > 1)
+		return spec_error_set(error, SPEC_EUSAGE,
+			"--strip makes a picture of one curve, by the suffix of -o");
+	return SPEC_OK;
+}
+
+static enum spec_status
 check_curve_options(const struct job *job, struct spec_error *error)
 {
+	for (size_t i = 0; i < job->setup.operations; i++) {
+		if (job->operation[i].kind == SPEC_OPERATION_ILLUMINATE ||
+			job->operation[i].kind == SPEC_OPERATION_REFLECTANCE_OF)
+			return spec_error_set(error, SPEC_EUSAGE,
+				"--illuminate and --reflectance-of are for images, not for "
+				"curves (--multiply, --divide)");
+	}
 	if (job->setup.has_crop || job->setup.downsample > 1 || job->setup.bands ||
-		job->setup.illuminate)
+		job->setup.bands_only || job->setup.per != SPEC_CONVERT_AS_IT_IS)
 		return spec_error_set(error, SPEC_EUSAGE,
-			"--crop, --downsample, --band and --illuminate are for images, not "
-			"for curves");
-	if (job->text && (job->patches.columns > 0 || job->patches.patch > 1 ||
-				 job->patches.gap > 0))
+			"--crop, --downsample, --band, --bands-only and --per are for images, "
+			"not for curves");
+	if (job->text > 0 && (job->patches.columns > 0 || job->patches.patch > 1 ||
+				     job->patches.gap > 0))
 		return spec_error_set(error, SPEC_EUSAGE,
 			"--patches, --patch and --gap make an image, and the output is text (-o FILE.exr)");
-	if (job->text && job->inputs > 1)
+	if (job->text > 0 && job->inputs > 1)
 		return spec_error_set(error, SPEC_EUSAGE,
 			"one curve at a time, or an image of them (--patches, or -o "
 			"FILE.exr)");
-	if (!job->text && job->has_to)
+	if (job->text == 0 && job->has_to)
 		return spec_error_set(error, SPEC_EUSAGE,
 			"--to makes text, and the output is an image (-o FILE.spd)");
+	if (job->has_to && job->from_rgb)
+		return spec_error_set(error, SPEC_EUSAGE,
+			"--from-rgb and --to exclude each other: specconvert --from-rgb ... | "
+			"specconvert --to ...");
 	return job->inputs > MOST_CURVES ? spec_error_set(error, SPEC_ERANGE,
 						   "more than %d curves", MOST_CURVES)
 					 : SPEC_OK;
 }
 
 static enum spec_status
-convert_curves(struct job *job, int argc, char **argv, struct spec_error *error)
+save_curves(struct job *job, const struct spec_curve *curve, int argc, char **argv,
+	struct spec_error *error)
 {
-	struct spec_reshape reshape = {job->setup.multiply, job->setup.multiplies,
-		job->setup.scale, job->setup.grid, job->setup.extrapolate,
-		job->has_interpolate, job->interpolate};
-	enum spec_status status = settle_format(job, 1, error);
+	if (job->strip > 0)
+		return spec_strip_save(
+			job->settings.output, curve, job->scaling, job->strip, error);
+	return job->text ? spec_spd_save(job->settings.output, curve, error)
+			 : write_chart(job, curve, argc, argv, error);
+}
+
+static enum spec_status
+convert_curves(const struct cli *cli, struct job *job, int argc, char **argv,
+	struct spec_error *error)
+{
+	const struct spec_convert_setup *setup = &job->setup;
+	struct spec_reshape reshape = {.abscissa = job->abscissa,
+		.medium = setup->medium,
+		.grid = setup->grid,
+		.rebin = setup->rebin,
+		.edges_nm = setup->edges_nm,
+		.operation = setup->operation,
+		.operations = setup->operations,
+		.extrapolate = setup->extrapolate,
+		.has_interpolate = job->has_interpolation,
+		.interpolate = setup->interpolation};
+	enum spec_status status = check_strip(job, error);
 	struct spec_curve *curve;
 
+	if (status == SPEC_OK && job->strip == 0)
+		status = settle_format(job, 1, error);
 	if (status == SPEC_OK)
 		status = check_curve_options(job, error);
-	if (status == SPEC_OK && job->has_to && job->from_rgb)
-		return spec_error_set(error, SPEC_EUSAGE,
-			"--from-rgb and --to exclude each other: specconvert --from-rgb ... | "
-			"specconvert --to ...");
 	if (status == SPEC_OK && job->has_to)
 		return spec_reshape_save(
 			job->input[0], &reshape, &job->to, job->settings.output, error);
@@ -422,13 +578,9 @@ convert_curves(struct job *job, int argc, char **argv, struct spec_error *error)
 	curve = spec_memory_new(job->inputs, sizeof *curve, "curves", error);
 	status = curve ? SPEC_OK : SPEC_ENOMEM;
 	for (size_t i = 0; i < job->inputs && status == SPEC_OK; i++)
-		status = job->from_rgb
-				 ? load_colour(job, job->input[i], &curve[i], error)
-				 : spec_reshape_curve(
-					   job->input[i], &reshape, &curve[i], error);
+		status = load_curve(cli, job, &reshape, job->input[i], &curve[i], error);
 	if (status == SPEC_OK)
-		status = job->text ? spec_spd_save(job->settings.output, &curve[0], error)
-				   : write_chart(job, curve, argc, argv, error);
+		status = save_curves(job, curve, argc, argv, error);
 	for (size_t i = 0; curve && i < job->inputs; i++)
 		spec_curve_free(&curve[i]);
 	free(curve);
@@ -440,8 +592,9 @@ changes_image(const struct job *job)
 {
 	const struct spec_convert_setup *setup = &job->setup;
 
-	return setup->grid || setup->bands || setup->multiplies > 0 || setup->illuminate ||
-	       setup->has_crop || setup->downsample > 1 || setup->scale != 1;
+	return setup->grid || setup->bands || setup->bands_only || setup->operations > 0 ||
+	       setup->has_crop || setup->downsample > 1 ||
+	       setup->per != SPEC_CONVERT_AS_IT_IS || setup->medium != SPEC_MEDIUM_UNKNOWN;
 }
 
 static enum spec_status
@@ -499,8 +652,8 @@ convert_representation(struct job *job, struct spec_reader *reader, int argc, ch
 	if (job->settings.format && strcmp(job->settings.format, "exr") != 0)
 		return spec_error_set(error, SPEC_EUSAGE,
 			"only OpenEXR files hold other representations than bands");
-	return spec_represented_run(reader, &job->to, &job->settings, argc, argv,
-		&job->overflows, error);
+	return spec_represented_run(
+		reader, &job->to, &job->settings, argc, argv, &job->overflows, error);
 }
 
 /* Whether --to asks an image for something else than the bands that it has anyway. */
@@ -511,45 +664,84 @@ leaves_bands(const struct job *job)
 				      job->to.kind == SPEC_SPECTRUM_COMPOSITE);
 }
 
-static enum spec_status
-convert_image(struct job *job, int argc, char **argv, struct spec_error *error)
+static void
+warn(const struct cli *cli, const struct job *job, const struct spec_convert *convert)
 {
-	struct spec_convert convert = {0};
-	struct spec_reader *reader = NULL;
-	enum spec_status status;
+	unsigned long long spoiled = convert->spoiled;
 
-	if (job->has_interpolate)
-		return spec_error_set(error, SPEC_EUSAGE,
-			"--interp is for curves, '%s' is an image", job->input[0]);
+	for (size_t i = 0; i < convert->notes.count; i++)
+		cli_warn(cli, "%s", convert->notes.text[i]);
+	if (spoiled > 0)
+		cli_warn(cli, "%s: %llu sample%s no finite power", job->settings.output,
+			spoiled, spoiled == 1 ? " has" : "s have");
+}
+
+/* What is for curves alone. */
+static enum spec_status
+check_image_options(const struct job *job, struct spec_error *error)
+{
+	const char *option = NULL;
+
 	if (job->patches.columns > 0)
+		option = "--patches";
+	else if (job->strip > 0 || job->scaling != SPEC_STRIP_AS_IT_IS)
+		option = "--strip";
+	else if (job->abscissa != SPEC_ABSCISSA_NM)
+		option = "--input-unit";
+	if (option)
 		return spec_error_set(error, SPEC_EUSAGE,
-			"--patches is for curves, '%s' is an image", job->input[0]);
+			"%s is for curves, '%s' is an image", option, job->input[0]);
+	if (job->has_interpolation && !job->grid_text)
+		return spec_error_set(
+			error, SPEC_EUSAGE, "of an image, --interp is for --grid");
 	if (job->has_to && job->to.kind == SPEC_SPECTRUM_SAMPLED && job->to.count > 0)
 		return spec_error_set(error, SPEC_EUSAGE,
 			"of an image, --to sampled has the image's own bands; --grid changes "
 			"them");
-	status = settle_format(job, 0, error);
+	return SPEC_OK;
+}
+
+static enum spec_status
+convert_bands(const struct cli *cli, struct job *job, struct spec_reader *reader, int argc,
+	char **argv, struct spec_error *error)
+{
+	struct spec_convert convert = {0};
+	enum spec_status status = spec_convert_plan(&convert, spec_reader_image(reader),
+		&job->setup, spec_reader_name(reader), error);
+
+	if (status == SPEC_OK && job->settings.history)
+		status = spec_image_add_history(&convert.image, argc, argv, error);
+	if (status == SPEC_OK)
+		status = spec_convert_run(
+			&convert, reader, &job->settings, &job->overflows, error);
+	if (status == SPEC_OK && !job->settings.quiet)
+		warn(cli, job, &convert);
+	spec_convert_free(&convert);
+	return status;
+}
+
+static enum spec_status
+convert_image(const struct cli *cli, struct job *job, int argc, char **argv,
+	struct spec_error *error)
+{
+	struct spec_reader *reader = NULL;
+	enum spec_status status = check_image_options(job, error);
+
+	if (status == SPEC_OK)
+		status = settle_format(job, 0, error);
 	if (status == SPEC_OK && job->inputs > 1)
 		status = spec_reader_open_list(
 			&reader, job->input, job->inputs, &job->settings, error);
 	else if (status == SPEC_OK)
 		status = spec_reader_open(&reader, job->input[0], &job->settings, error);
-	if (status == SPEC_OK && job->text) {
+	if (status == SPEC_OK && job->text)
 		status = image_to_text(job, reader, error);
-	} else if (status == SPEC_OK && job->from_rgb) {
+	else if (status == SPEC_OK && job->from_rgb)
 		status = convert_colours(job, reader, argc, argv, error);
-	} else if (status == SPEC_OK && leaves_bands(job)) {
+	else if (status == SPEC_OK && leaves_bands(job))
 		status = convert_representation(job, reader, argc, argv, error);
-	} else if (status == SPEC_OK) {
-		status = spec_convert_plan(&convert, spec_reader_image(reader), &job->setup,
-			spec_reader_name(reader), error);
-		if (status == SPEC_OK && job->settings.history)
-			status = spec_image_add_history(&convert.image, argc, argv, error);
-		if (status == SPEC_OK)
-			status = spec_convert_run(
-				&convert, reader, &job->settings, &job->overflows, error);
-	}
-	spec_convert_free(&convert);
+	else if (status == SPEC_OK)
+		status = convert_bands(cli, job, reader, argc, argv, error);
 	spec_reader_close(reader);
 	return status;
 }
@@ -557,11 +749,11 @@ convert_image(struct job *job, int argc, char **argv, struct spec_error *error)
 static void
 free_job(struct job *job)
 {
-	for (size_t i = 0; i < job->setup.multiplies; i++)
-		spec_curve_free(&job->multiply[i]);
-	free(job->multiply);
+	for (size_t i = 0; i < job->setup.operations; i++)
+		spec_operation_free(&job->operation[i]);
+	free(job->operation);
+	free(job->edges_nm);
 	free((void *)job->input);
-	spec_curve_free(&job->illuminate);
 	spec_grid_free(&job->grid);
 	spec_grid_free(&job->bands);
 }
@@ -569,7 +761,7 @@ free_job(struct job *job)
 int
 main(int argc, char **argv)
 {
-	struct job job = {.setup = {.downsample = 1, .scale = 1},
+	struct job job = {.setup = {.downsample = 1, .least = -1},
 		.patches = {.patch = 1},
 		.text = -1};
 	struct spec_error error = {0};
@@ -583,8 +775,9 @@ main(int argc, char **argv)
 	job.settings.show = cli_progress_show;
 	job.settings.show_state = &progress;
 
-	status = spec_kind_is_curve(job.input[0]) ? convert_curves(&job, argc, argv, &error)
-					: convert_image(&job, argc, argv, &error);
+	status = spec_kind_is_curve(job.input[0])
+			 ? convert_curves(&cli, &job, argc, argv, &error)
+			 : convert_image(&cli, &job, argc, argv, &error);
 	cli_progress_end(&progress);
 	cli_check(&cli, status, &error);
 	if (!job.settings.quiet && job.clamped > 0)

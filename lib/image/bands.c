@@ -8,9 +8,7 @@
 #include "base/number.h"
 #include "image/image.h"
 #include "image/names.h"
-
-#define SAME_NM 1e-3    /* names of six and of three decimals are the same band */
-#define SAME_SHARE 0.25 /* of the way to the next band, where that is less */
+#include "spectrum/grid.h"
 
 struct band {
 	double wavelength_nm;
@@ -226,26 +224,7 @@ find_edges(struct spec_image *image, const char *name, struct spec_error *error)
 size_t
 spec_image_nearest_band(const struct spec_image *image, double wavelength_nm, int *same)
 {
-	const double *known = image->wavelength_nm;
-	size_t low = 0, high = image->bands - 1;
-	double tolerance = SAME_NM;
-
-	while (high - low > 1) {
-		size_t middle = (low + high) / 2;
-
-		if (known[middle] <= wavelength_nm)
-			low = middle;
-		else
-			high = middle;
-	}
-	if (fabs(known[high] - wavelength_nm) < fabs(known[low] - wavelength_nm))
-		low = high;
-	if (low > 0)
-		tolerance = fmin(tolerance, SAME_SHARE * (known[low] - known[low - 1]));
-	if (low + 1 < image->bands)
-		tolerance = fmin(tolerance, SAME_SHARE * (known[low + 1] - known[low]));
-	*same = fabs(known[low] - wavelength_nm) <= tolerance;
-	return low;
+	return spec_grid_nearest(image->wavelength_nm, image->bands, wavelength_nm, same);
 }
 
 size_t

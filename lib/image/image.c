@@ -129,7 +129,8 @@ spec_image_remove_bands(struct spec_image *image)
 static int
 is_preview(const struct spec_channel *channel)
 {
-	return strlen(channel->name) == 1 && strchr("RGB", channel->name[0]);
+	return channel->role == SPEC_ROLE_OTHER && strlen(channel->name) == 1 &&
+	       strchr("RGB", channel->name[0]);
 }
 
 void

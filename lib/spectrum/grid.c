@@ -7,9 +7,10 @@
 #include "base/memory.h"
 #include "base/number.h"
 
-#define SLACK 1e-6   /* of a step: how far off the grid the upper bound may lie */
-#define SAME_NM 1e-3 /* names of six and of three decimals are the same wavelength */
-#define SAME_SHARE 0.01
+#define SLACK 1e-6      /* of a step: how far off the grid the upper bound may lie */
+#define SAME_NM 1e-3    /* names of six and of three decimals are the same wavelength */
+#define REGULAR 0.01    /* of a step, by which a regular grid's may be off */
+#define SAME_SHARE 0.25 /* of the way to the next one, where that is less */
 
 enum spec_status
 spec_grid_new(size_t count, struct spec_grid *grid, struct spec_error *error)
@@ -123,6 +124,32 @@ spec_grid_copy(
 	return status;
 }
 
+size_t
+spec_grid_nearest(const double *known_nm, size_t count, double wavelength_nm, int *same)
+{
+	size_t low = 0, high = count - 1;
+	double tolerance_nm = SAME_NM;
+
+	while (high - low > 1) {
+		size_t middle = (low + high) / 2;
+
+		if (known_nm[middle] <= wavelength_nm)
+			low = middle;
+		else
+			high = middle;
+	}
+	if (fabs(known_nm[high] - wavelength_nm) < fabs(known_nm[low] - wavelength_nm))
+		low = high;
+	if (low > 0)
+		tolerance_nm = fmin(
+			tolerance_nm, SAME_SHARE * (known_nm[low] - known_nm[low - 1]));
+	if (low + 1 < count)
+		tolerance_nm = fmin(
+			tolerance_nm, SAME_SHARE * (known_nm[low + 1] - known_nm[low]));
+	*same = fabs(known_nm[low] - wavelength_nm) <= tolerance_nm;
+	return low;
+}
+
 void
 spec_grid_free(struct spec_grid *grid)
 {
@@ -140,7 +167,7 @@ spec_grid_step(const double *wavelength_nm, size_t count)
 	if (count < 2)
 		return 0;
 	step_nm = (wavelength_nm[count - 1] - wavelength_nm[0]) / (double)(count - 1);
-	most_nm = fmin(SAME_NM, SAME_SHARE * step_nm);
+	most_nm = fmin(SAME_NM, REGULAR * step_nm);
 	for (size_t i = 1; i + 1 < count; i++) {
 		if (fabs(wavelength_nm[0] + (double)i * step_nm - wavelength_nm[i]) >
 			most_nm * (1 + 1e-6))

@@ -44,6 +44,14 @@ enum spec_status spec_grid_copy(
  */
 double spec_grid_step(const double *wavelength_nm, size_t count);
 
+/*
+ * The index of the wavelength nearest to one, among count >= 1 that ascend; *same: it is that
+ * one, which it is within 0.001 nm (names of three and of six decimals agree) but no
+ * farther than a quarter of the way to its neighbours.
+ */
+size_t spec_grid_nearest(
+	const double *known_nm, size_t count, double wavelength_nm, int *same);
+
 /* Frees what grid holds and leaves it empty; null or empty is allowed. */
 void spec_grid_free(struct spec_grid *grid);
 

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "spectrum/weights.h"
 
 static enum spec_status
 copy_texts(const struct spec_curve *from, struct spec_curve *to, struct spec_error *error)
@@ -49,6 +50,41 @@ spec_curve_resample(const struct spec_curve *curve, const struct spec_grid *grid
 	if (status != SPEC_OK)
 		spec_curve_free(result);
 	return status;
+}
+
+enum spec_status
+spec_curve_resample_by(enum spec_interpolate rule, const struct spec_curve *curve,
+	const struct spec_grid *grid, enum spec_extrapolate extrapolate,
+	struct spec_curve *result, struct spec_error *error)
+{
+	double first_nm = curve->wavelength_nm[0];
+	double last_nm = curve->wavelength_nm[curve->count - 1];
+	enum spec_status status =
+		spec_weights_check(rule, curve->wavelength_nm, curve->count, error);
+
+	*result = (struct spec_curve){0};
+	if (status == SPEC_OK)
+		status = spec_curve_resample(curve, grid, extrapolate, result, error);
+	if (status != SPEC_OK || rule == SPEC_INTERPOLATE_LINEAR)
+		return status;
+	for (size_t i = 0; i < grid->count; i++) {
+		double nm = grid->wavelength_nm[i];
+		struct spec_weights weights;
+
+		if (nm <= first_nm || nm >= last_nm)
+			continue; /* an end, or extrapolated: every rule has the same */
+		weights = spec_weights_at(rule, curve->wavelength_nm, curve->count, nm);
+		for (size_t j = 0; j < curve->columns; j++) {
+			const double *from =
+				curve->value + j * curve->count + weights.first;
+			double sum = 0;
+
+			for (size_t k = 0; k < weights.count; k++)
+				sum += weights.weight[k] * from[k];
+			result->value[j * grid->count + i] = sum;
+		}
+	}
+	return SPEC_OK;
 }
 
 /* The wavelengths of both in their common range, each once; into list where it is not null. */
@@ -98,34 +134,92 @@ join(char **field, const char *one, const char *between, const char *two,
 	return status;
 }
 
-/* What the product of two curves is. */
+enum how { MULTIPLY, DIVIDE, ADD };
+
+static int
+is_stated(const struct spec_curve *curve)
+{
+	return curve->quantity[0] != '\0';
+}
+
+enum spec_status
+spec_curve_check_sum(
+	const struct spec_curve *a, const struct spec_curve *b, struct spec_error *error)
+{
+	int same = !is_stated(a) || !is_stated(b) ||
+		   (spec_curve_is_light(a) && spec_curve_is_light(b)) ||
+		   (spec_curve_is_ratio(a) && spec_curve_is_ratio(b)) ||
+		   strcmp(a->quantity, b->quantity) == 0;
+
+	if (!same)
+		return spec_error_set(error, SPEC_EUSAGE,
+			"'%.200s' is a %.200s, '%.200s' a %.200s: they cannot be added",
+			a->title, a->quantity, b->title, b->quantity);
+	if (*a->unit && *b->unit && strcmp(a->unit, b->unit) != 0)
+		return spec_error_set(error, SPEC_EUSAGE,
+			"'%.200s' is in %.100s, '%.200s' in %.100s: they cannot be added",
+			a->title, a->unit, b->title, b->unit);
+	return SPEC_OK;
+}
+
+static const char *
+quantity_of(enum how how, const struct spec_curve *a, const struct spec_curve *b)
+{
+	if (how == ADD)
+		return is_stated(a) ? a->quantity : b->quantity;
+	if (spec_curve_is_ratio(b))
+		return spec_curve_is_ratio(a) || spec_curve_is_light(a) ? a->quantity : "";
+	if (how == MULTIPLY && spec_curve_is_ratio(a))
+		return b->quantity;
+	return "";
+}
+
+/* What the result of two curves is. */
 static enum spec_status
-name_product(const struct spec_curve *a, const struct spec_curve *b,
+name_result(enum how how, const struct spec_curve *a, const struct spec_curve *b,
 	struct spec_curve *result, struct spec_error *error)
 {
-	const char *quantity = "";
+	static const char *const between[] = {" times ", " over ", " plus "};
+	const char *unit = "";
 	enum spec_status status;
 
-	if (spec_curve_is_ratio(a))
-		quantity = spec_curve_is_ratio(b) ? a->quantity : b->quantity;
-	else if (spec_curve_is_ratio(b))
-		quantity = a->quantity;
-	status = spec_curve_set_text(&result->quantity, quantity, error);
+	if (how == ADD)
+		unit = *a->unit ? a->unit : b->unit;
+	status = spec_curve_set_text(&result->quantity, quantity_of(how, a, b), error);
 	if (status == SPEC_OK)
-		status = spec_curve_set_text(&result->unit, "", error);
+		status = spec_curve_set_text(&result->unit, unit, error);
 	if (status == SPEC_OK)
-		status = join(&result->title, a->title, " times ", b->title, error);
+		status = join(&result->title, a->title, between[how], b->title, error);
 	return status == SPEC_OK ? join(&result->source, a->source, "; ", b->source, error)
 				 : status;
 }
 
-enum spec_status
-spec_curve_multiply(const struct spec_curve *a, const struct spec_curve *b,
+/* value: the result's, of a alone so far; other: b's at its wavelengths. */
+static enum spec_status
+combine_values(enum how how, const double *other, const char *title,
+	struct spec_curve *result, struct spec_error *error)
+{
+	for (size_t i = 0; i < result->count * result->columns; i++) {
+		double b = other[i % result->count], *value = &result->value[i];
+
+		if (how == DIVIDE && b == 0)
+			return spec_error_set(error, SPEC_ERANGE,
+				"unable to divide by '%.200s': it is 0 at %.10g nm", title,
+				result->wavelength_nm[i % result->count]);
+		*value = how == MULTIPLY ? *value * b
+			 : how == DIVIDE ? *value / b
+					 : *value + b;
+	}
+	return SPEC_OK;
+}
+
+static enum spec_status
+combine(enum how how, const struct spec_curve *a, const struct spec_curve *b,
 	struct spec_curve *result, struct spec_error *error)
 {
 	size_t count = merge(a, b, NULL);
 	enum spec_status status;
-	double *factor;
+	double *other;
 
 	if (count == 0)
 		return spec_error_set(error, SPEC_ERANGE,
@@ -137,19 +231,41 @@ spec_curve_multiply(const struct spec_curve *a, const struct spec_curve *b,
 		return status;
 	merge(a, b, result->wavelength_nm);
 	status = sample_all(a, SPEC_EXTRAPOLATE_REFUSE, result, error);
-	factor = calloc(count, sizeof *factor);
-	if (!factor)
-		status = spec_error_set(
-			error, SPEC_ENOMEM, "out of memory for %zu values", count);
+	other = spec_memory_new(count, sizeof *other, "values", error);
+	if (!other)
+		status = SPEC_ENOMEM;
 	if (status == SPEC_OK)
 		status = spec_curve_sample(b, 0, SPEC_EXTRAPOLATE_REFUSE,
-			result->wavelength_nm, count, factor, error);
+			result->wavelength_nm, count, other, error);
 	if (status == SPEC_OK)
-		status = name_product(a, b, result, error);
-	for (size_t i = 0; i < count * a->columns && status == SPEC_OK; i++)
-		result->value[i] *= factor[i % count];
-	free(factor);
+		status = name_result(how, a, b, result, error);
+	if (status == SPEC_OK)
+		status = combine_values(how, other, b->title, result, error);
+	free(other);
 	if (status != SPEC_OK)
 		spec_curve_free(result);
 	return status;
+}
+
+enum spec_status
+spec_curve_multiply(const struct spec_curve *a, const struct spec_curve *b,
+	struct spec_curve *result, struct spec_error *error)
+{
+	return combine(MULTIPLY, a, b, result, error);
+}
+
+enum spec_status
+spec_curve_divide(const struct spec_curve *a, const struct spec_curve *b,
+	struct spec_curve *result, struct spec_error *error)
+{
+	return combine(DIVIDE, a, b, result, error);
+}
+
+enum spec_status
+spec_curve_add(const struct spec_curve *a, const struct spec_curve *b,
+	struct spec_curve *result, struct spec_error *error)
+{
+	enum spec_status status = spec_curve_check_sum(a, b, error);
+
+	return status == SPEC_OK ? combine(ADD, a, b, result, error) : status;
 }

@@ -7,6 +7,7 @@
 #include "spectrum/lookup.h"
 #include "spectrum/operate.h"
 #include "spectrum/product.h"
+#include "spectrum/rebin.h"
 #include "spectrum/spd.h"
 #include "spectrum/spdtable.h"
 #include "spectrum/store.h"
@@ -50,29 +51,56 @@ replace(struct spec_spectrum *old, struct spec_spectrum *next)
 	*old = *next;
 }
 
+/* With a curve or a number. */
 static enum spec_status
-multiply(struct spec_spectrum *spectrum, const struct spec_reshape *reshape,
+combine(const struct spec_spectrum *spectrum, const struct spec_operation *operation,
+	struct spec_spectrum *next, struct spec_error *error)
+{
+	static const enum spec_operator operators[] = {
+		[SPEC_OPERATION_MULTIPLY] = SPEC_MULTIPLY,
+		[SPEC_OPERATION_DIVIDE] = SPEC_DIVIDE,
+		[SPEC_OPERATION_ADD] = SPEC_ADD,
+		[SPEC_OPERATION_SCALE] = SPEC_MULTIPLY,
+		[SPEC_OPERATION_RAISE] = SPEC_RAISE};
+	enum spec_operator op = operators[operation->kind];
+	struct spec_spectrum other;
+	enum spec_status status;
+
+	if (operation->kind == SPEC_OPERATION_SCALE ||
+		operation->kind == SPEC_OPERATION_RAISE)
+		return spec_spectrum_combine_number(
+			spectrum, op, operation->number, next, error);
+	status = spec_spectrum_from_curve(&operation->curve, 0, &other, error);
+	if (status != SPEC_OK)
+		return status;
+	status = spec_spectrum_combine(
+		spectrum, op, &other, SPEC_EXTRAPOLATE_REFUSE, next, error);
+	spec_spectrum_free(&other);
+	return status;
+}
+
+static enum spec_status
+operate(struct spec_spectrum *spectrum, const struct spec_reshape *reshape,
 	struct spec_error *error)
 {
-	struct spec_spectrum factor, next;
 	enum spec_status status = SPEC_OK;
 
-	for (size_t i = 0; i < reshape->multiplies && status == SPEC_OK; i++) {
-		status = spec_spectrum_from_curve(&reshape->multiply[i], 0, &factor, error);
-		if (status != SPEC_OK)
-			return status;
-		status = spec_spectrum_combine(spectrum, SPEC_MULTIPLY, &factor,
-			SPEC_EXTRAPOLATE_REFUSE, &next, error);
-		spec_spectrum_free(&factor);
+	for (size_t i = 0; i < reshape->operations && status == SPEC_OK; i++) {
+		const struct spec_operation *operation = &reshape->operation[i];
+		struct spec_spectrum next;
+
+		if (operation->kind == SPEC_OPERATION_ILLUMINATE ||
+			operation->kind == SPEC_OPERATION_REFLECTANCE_OF)
+			return spec_error_set(error, SPEC_EUNSUPPORTED,
+				"what light does to reflectance is for images");
+		if (operation->kind == SPEC_OPERATION_CLAMP)
+			status = spec_spectrum_clamp(
+				spectrum, operation->low, operation->high, &next, error);
+		else
+			status = combine(spectrum, operation, &next, error);
 		if (status == SPEC_OK)
 			replace(spectrum, &next);
 	}
-	if (status != SPEC_OK || reshape->scale == 1)
-		return status;
-	status = spec_spectrum_combine_number(
-		spectrum, SPEC_MULTIPLY, reshape->scale, &next, error);
-	if (status == SPEC_OK)
-		replace(spectrum, &next);
 	return status;
 }
 
@@ -106,7 +134,7 @@ reshape_spectrum(struct spec_spectrum *spectrum, const struct spec_reshape *resh
 
 	wanted.extrapolate = reshape->extrapolate;
 	if (status == SPEC_OK)
-		status = multiply(spectrum, reshape, error);
+		status = operate(spectrum, reshape, error);
 	/* A table at its own wavelengths keeps what lies between them. */
 	if (status == SPEC_OK && to->kind == SPEC_SPECTRUM_TABULATED && !to->grid &&
 		spectrum->wavelength_nm)
@@ -175,37 +203,92 @@ reshape_columns(const struct spec_curve *source, enum spec_interpolate *rule,
 	return status;
 }
 
-/* The same where it is linear between: as it has always been. */
+/* ---- a curve that is linear between its rows ---- */
+
+/* Puts a curve in place of another. */
+static void
+replace_curve(struct spec_curve *curve, struct spec_curve *next)
+{
+	spec_curve_free(curve);
+	*curve = *next;
+}
+
+/* Its wavelengths over nm, in the medium that is asked for. */
 static enum spec_status
-reshape_linear(const struct spec_curve *source, const struct spec_reshape *reshape,
+settle_wavelengths(const char *name, const struct spec_reshape *reshape,
+	struct spec_curve *curve, int *left, struct spec_error *error)
+{
+	const char *medium = spec_medium_name(reshape->medium);
+	enum spec_status status =
+		spec_abscissa_convert(reshape->abscissa, curve, left, error);
+
+	if (status != SPEC_OK || !*medium)
+		return status;
+	if (strcmp(curve->medium, medium) == 0)
+		return spec_error_set(error, SPEC_EUSAGE,
+			"%s: its wavelengths are those in %s already", name, medium);
+	status = spec_air_convert(
+		reshape->medium, curve->wavelength_nm, curve->count, error);
+	return status == SPEC_OK ? spec_curve_set_text(&curve->medium, medium, error)
+				 : status;
+}
+
+/* The curve on the grid by a rule, and after the operations there. */
+static enum spec_status
+change(const struct spec_reshape *reshape, enum spec_interpolate rule,
 	struct spec_curve *curve, struct spec_error *error)
 {
+	const struct spec_grid *grid = reshape->grid;
 	struct spec_curve next;
-	enum spec_status status = spec_curve_copy(source, curve, error);
+	enum spec_status status = SPEC_OK;
 
-	for (size_t i = 0; i < reshape->multiplies && status == SPEC_OK; i++) {
-		status = spec_curve_multiply(curve, &reshape->multiply[i], &next, error);
-		if (status == SPEC_OK) {
-			spec_curve_free(curve);
-			*curve = next;
-		}
-	}
-	if (status == SPEC_OK && reshape->grid) {
-		status = spec_curve_resample(
-			curve, reshape->grid, reshape->extrapolate, &next, error);
-		if (status == SPEC_OK) {
-			spec_curve_free(curve);
-			*curve = next;
-		}
-	}
-	for (size_t i = 0; i < curve->count * curve->columns && status == SPEC_OK; i++)
-		curve->value[i] *= reshape->scale;
-	if (status == SPEC_OK && reshape->scale != 1)
-		status = spec_curve_set_text(
-			&curve->unit, "", error); /* it was of other numbers */
+	if (grid && reshape->rebin)
+		status = spec_curve_rebin(
+			curve, grid, reshape->edges_nm, reshape->extrapolate, &next, error);
+	else if (grid)
+		status = spec_curve_resample_by(
+			rule, curve, grid, reshape->extrapolate, &next, error);
+	if (status == SPEC_OK && grid)
+		replace_curve(curve, &next);
+	for (size_t i = 0; i < reshape->operations && status == SPEC_OK; i++)
+		status = spec_operation_apply(&reshape->operation[i], curve, error);
+	if (status != SPEC_OK || !grid || reshape->operations == 0)
+		return status;
+	/* The wavelengths of other curves came in between. */
+	status = spec_curve_resample(curve, grid, reshape->extrapolate, &next, error);
+	if (status == SPEC_OK)
+		replace_curve(curve, &next);
+	return status;
+}
+
+/* As spec_reshape_loaded, of a curve with any rule between its rows, and a grid or not. */
+static enum spec_status
+shape(const char *name, const struct spec_reshape *reshape, enum spec_interpolate rule,
+	struct spec_curve *curve, struct spec_reshape_notes *notes,
+	struct spec_error *error)
+{
+	enum spec_status status =
+		settle_wavelengths(name, reshape, curve, &notes->left, error);
+
+	if (status == SPEC_OK && reshape->grid)
+		spec_curve_describe_outside(curve, reshape->grid, reshape->edges_nm,
+			reshape->rebin, notes->outside, sizeof notes->outside);
+	if (status == SPEC_OK)
+		status = change(reshape, rule, curve, error);
 	if (status != SPEC_OK)
 		spec_curve_free(curve);
 	return status;
+}
+
+enum spec_status
+spec_reshape_loaded(const char *name, const struct spec_reshape *reshape,
+	struct spec_curve *curve, struct spec_reshape_notes *notes,
+	struct spec_error *error)
+{
+	*notes = (struct spec_reshape_notes){0};
+	return shape(name, reshape,
+		reshape->has_interpolate ? reshape->interpolate : SPEC_INTERPOLATE_LINEAR,
+		curve, notes, error);
 }
 
 /* ---- files ---- */
@@ -229,32 +312,67 @@ sample_file(const struct spec_spd_table *table, const char *path,
 	return status;
 }
 
+/* What only a plain table can have: numbers of another unit or medium, and bins. */
+static enum spec_status
+check_plain(const char *name, const struct spec_reshape *reshape, struct spec_error *error)
+{
+	if (reshape->abscissa == SPEC_ABSCISSA_NM &&
+		reshape->medium == SPEC_MEDIUM_UNKNOWN && !reshape->rebin)
+		return SPEC_OK;
+	return spec_error_set(error, SPEC_EUSAGE,
+		"%s: units, media and bins are for tables that are linear between their "
+		"rows (specconvert --to tabulated makes one)",
+		name);
+}
+
+/* A plain table at its own wavelengths, by another rule than the linear one. */
+static enum spec_status
+shape_by_rule(const char *name, struct spec_spd_table *table,
+	const struct spec_reshape *reshape, struct spec_curve *curve,
+	struct spec_error *error)
+{
+	struct spec_representation same = {.kind = SPEC_SPECTRUM_TABULATED};
+	enum spec_interpolate rule =
+		reshape->has_interpolate ? reshape->interpolate : table->interpolate;
+	struct spec_curve source = {0};
+	enum spec_status status = check_plain(name, reshape, error);
+
+	if (status == SPEC_OK)
+		status = spec_spd_table_to_curve(table, &source, error);
+	if (status == SPEC_OK)
+		status = reshape_columns(&source, &rule, reshape, &same, curve, error);
+	spec_curve_free(&source);
+	return status;
+}
+
 enum spec_status
 spec_reshape_curve(const char *name, const struct spec_reshape *reshape,
-	struct spec_curve *curve, struct spec_error *error)
+	struct spec_curve *curve, struct spec_reshape_notes *notes,
+	struct spec_error *error)
 {
-	struct spec_representation at_grid = {
-		.kind = SPEC_SPECTRUM_TABULATED, .grid = reshape->grid};
 	struct spec_spd_table table;
-	struct spec_curve source = {0};
 	enum spec_interpolate rule;
+	const char *title = "<stdin>";
 	char *path;
 	enum spec_status status = read_table(name, &table, &path, error);
 
 	*curve = (struct spec_curve){0};
+	*notes = (struct spec_reshape_notes){0};
+	if (path)
+		title = path;
 	rule = reshape->has_interpolate ? reshape->interpolate : table.interpolate;
-	if (status == SPEC_OK && !is_plain(&table))
-		status =
-			sample_file(&table, path ? path : "<stdin>", reshape, curve, error);
-	else if (status == SPEC_OK) {
-		status = spec_spd_table_to_curve(&table, &source, error);
-		if (status == SPEC_OK && rule == SPEC_INTERPOLATE_LINEAR)
-			status = reshape_linear(&source, reshape, curve, error);
-		else if (status == SPEC_OK)
-			status = reshape_columns(
-				&source, &rule, reshape, &at_grid, curve, error);
+	if (status == SPEC_OK && !is_plain(&table)) {
+		status = check_plain(name, reshape, error);
+		if (status == SPEC_OK)
+			status = sample_file(&table, title, reshape, curve, error);
+	} else if (status == SPEC_OK &&
+		   (reshape->grid || rule == SPEC_INTERPOLATE_LINEAR)) {
+		status = spec_spd_table_to_curve(&table, curve, error);
+		if (status == SPEC_OK)
+			status = shape(name, reshape, rule, curve, notes, error);
+	} else if (status == SPEC_OK) {
+		status = shape_by_rule(name, &table, reshape, curve, error);
 	}
-	spec_curve_free(&source);
 	spec_spd_table_free(&table);
 	free(path);
 	return status;
@@ -289,6 +407,8 @@ spec_reshape_save(const char *name, const struct spec_reshape *reshape,
 	char *source;
 	enum spec_status status = read_table(name, &table, &source, error);
 
+	if (status == SPEC_OK)
+		status = check_plain(name, reshape, error);
 	if (status == SPEC_OK && is_plain(&table) && tabular) {
 		status = save_columns(&table, reshape, to, path, error);
 	} else if (status == SPEC_OK && is_plain(&table) && table.width > 2) {

@@ -893,6 +893,5 @@ energy() {
   wrong "Sprague's interpolation needs equidistant samples" --interp sprague -g 400:410:5 Ag
   wrong 'covers 380..780 nm, not 300 nm' --to sampled:300:700:100 F2
   wrong '--to makes text' --to tabulated F2 -o a2.exr
-  wrong 'are for curves' --to tabulated a.exr
-  wrong 'are for curves' --interp left a.exr
+  wrong '--interp is for --grid' --interp left a.exr
 }

@@ -138,7 +138,6 @@ plan(struct fixture *fixture, const struct spec_convert_setup *setup,
 	struct spec_convert_setup whole = *setup;
 
 	whole.downsample = setup->downsample ? setup->downsample : 1;
-	whole.scale = setup->scale != 0 ? setup->scale : 1;
 	close_result(fixture);
 	return spec_convert_plan(&fixture->convert, spec_reader_image(fixture->reader),
 		&whole, "in.exr", error);
@@ -206,6 +205,19 @@ curve_of(const double (*point)[2], size_t count)
 #define CURVE(...)                                                                         \
 	curve_of((const double[][2]){__VA_ARGS__},                                         \
 		COUNT(((const double[][2]){__VA_ARGS__})))
+
+/* Of a setup: what is done to its bands. */
+#define OPERATIONS(...)                                                                    \
+	.operation = (struct spec_operation[]){__VA_ARGS__},                               \
+	.operations = COUNT(((struct spec_operation[]){__VA_ARGS__}))
+#define SCALE(factor)                                                                      \
+	{                                                                                  \
+		.kind = SPEC_OPERATION_SCALE, .number = (factor)                           \
+	}
+#define WITH(what, by)                                                                     \
+	{                                                                                  \
+		.kind = SPEC_OPERATION_##what, .curve = (by)                               \
+	}
 
 /*
  * Linear in the wavelength, so that interpolation is exact: 2^-10 per nm, and all the
@@ -347,8 +359,9 @@ test_multiply(void **state)
 {
 	struct fixture *fixture = *state;
 	struct spec_curve factor[] = {CURVE({300, 0}, {800, 5}), CURVE({400, 2}, {700, 2})};
-	struct spec_convert_setup setup = {
-		.multiply = factor, .multiplies = 2, .scale = -0.5};
+	struct spec_convert_setup setup = {OPERATIONS(
+		WITH(MULTIPLY, factor[0]), WITH(MULTIPLY, factor[1]), SCALE(-0.5))};
+	struct spec_operation shorter[2] = {WITH(MULTIPLY, factor[0])};
 	struct spec_error error;
 
 	make_image(fixture, plain, COUNT(plain), small, linear);
@@ -365,6 +378,9 @@ test_multiply(void **state)
 	assert_true(*channel_at(fixture, "Z", 4, 2) == 136);
 	spec_curve_free(&factor[1]);
 	factor[1] = CURVE({450, 2}, {700, 2});
+	shorter[1] = (struct spec_operation)WITH(MULTIPLY, factor[1]);
+	setup.operation = shorter;
+	setup.operations = 2;
 	assert_int_equal(plan(fixture, &setup, &error), SPEC_ERANGE);
 	assert_non_null(strstr(error.message, "450..700 nm"));
 	spec_curve_free(&factor[0]);
@@ -379,7 +395,7 @@ test_multiply_grid(void **state)
 	struct spec_curve factor = CURVE({400, 1}, {450, 8}, {500, 1}, {700, 1});
 	struct spec_grid grid = {.wavelength_nm = (double[]){425, 450}, .count = 2};
 	struct spec_convert_setup setup = {
-		.multiply = &factor, .multiplies = 1, .grid = &grid};
+		OPERATIONS(WITH(MULTIPLY, factor)), .grid = &grid};
 
 	make_image(fixture, plain, COUNT(plain), small, linear);
 	convert(fixture, &setup);
@@ -395,7 +411,7 @@ test_stokes(void **state)
 		"S2.400nm", "S2.600nm", "S3.400nm", "S3.600nm"};
 	struct fixture *fixture = *state;
 	struct spec_grid grid = {.wavelength_nm = (double[]){450, 500, 550}, .count = 3};
-	struct spec_convert_setup setup = {.grid = &grid, .scale = 2};
+	struct spec_convert_setup setup = {.grid = &grid, OPERATIONS(SCALE(2))};
 	char name[64];
 
 	make_image(fixture, names, COUNT(names), small, linear);
@@ -418,7 +434,7 @@ test_illuminate(void **state)
 	struct fixture *fixture = *state;
 	struct spec_curve light = CURVE({400, 1}, {500, 10}, {600, 100});
 	struct spec_grid grid = {.wavelength_nm = (double[]){450, 600}, .count = 2};
-	struct spec_convert_setup setup = {.illuminate = &light};
+	struct spec_convert_setup setup = {OPERATIONS(WITH(ILLUMINATE, light))};
 	struct spec_error error;
 	char *quantity;
 
@@ -462,8 +478,10 @@ test_illuminate_bispectral(void **state)
 	struct spec_curve light = CURVE({400, 3}, {500, 5}, {600, 7}),
 			  filter = CURVE({400, 1}, {600, 0.5});
 	struct spec_grid grid = {.wavelength_nm = (double[]){500}, .count = 1};
-	struct spec_convert_setup setup = {.illuminate = &light}, regrid = {.grid = &grid},
-				  scaled = {.scale = 2};
+	struct spec_convert_setup setup = {OPERATIONS(WITH(ILLUMINATE, light))},
+				  regrid = {.grid = &grid}, scaled = {OPERATIONS(SCALE(2))},
+				  filtered = {OPERATIONS(
+					  WITH(ILLUMINATE, light), WITH(MULTIPLY, filter))};
 	struct spec_error error;
 
 	make_image(fixture, names, COUNT(names), small, fluorescent);
@@ -477,9 +495,7 @@ test_illuminate_bispectral(void **state)
 			5 * (500 / 1024.0 + 600 / 64.0 + 2));
 	/* A filter is passed by the light that leaves. */
 	make_image(fixture, names, COUNT(names), small, fluorescent);
-	setup.multiply = &filter;
-	setup.multiplies = 1;
-	convert(fixture, &setup);
+	convert(fixture, &filtered);
 	assert_sample(fixture, "S0.500,000000nm", 2, 1,
 		0.75 * (5 * (500 / 1024.0 + 6) + 3 * (400 / 1024.0 + 500 / 64.0 + 2)));
 	/* The matrix itself keeps its shape, and its grid. */
@@ -634,10 +650,7 @@ test_everything(void **state)
 		.crop = {1, 2, 7, 10},
 		.downsample = 2,
 		.grid = &grid,
-		.multiply = &factor,
-		.multiplies = 1,
-		.illuminate = &light,
-		.scale = 8};
+		OPERATIONS(WITH(MULTIPLY, factor), WITH(ILLUMINATE, light), SCALE(8))};
 
 	make_image(fixture, reflective, COUNT(reflective),
 		(struct spec_window){-1, 0, 9, 12}, linear);
@@ -658,7 +671,7 @@ test_threads(void **state)
 	static const int threads[] = {2, 3, 8};
 	struct fixture *fixture = *state;
 	struct spec_grid grid;
-	struct spec_convert_setup setup = {.grid = &grid, .scale = 1.25};
+	struct spec_convert_setup setup = {.grid = &grid, OPERATIONS(SCALE(1.25))};
 	size_t room = 4 << 20, size[2];
 	char *bytes[2] = {malloc(room), malloc(room)};
 
@@ -712,7 +725,7 @@ test_bins(void **state)
 	struct spec_grid points = {.wavelength_nm = (double[]){450, 500}, .count = 2},
 			 one = {.wavelength_nm = (double[]){500}, .count = 1};
 	struct spec_convert_setup grid = {.grid = &points}, band = {.bands = &one},
-				  scale = {.scale = 2};
+				  scale = {OPERATIONS(SCALE(2))};
 	const struct spec_convert_setup *const setups[3] = {&scale, &grid, &band};
 	static const double edges[] = {350, 460, 550, 650};
 
@@ -742,7 +755,7 @@ test_not_spectral(void **state)
 	static const char *const names[] = {"R", "G", "B"};
 	struct fixture *fixture = *state;
 	struct spec_convert_setup crop = {.has_crop = 1, .crop = {1, 1, 3, 2}},
-				  scale = {.scale = 2};
+				  scale = {OPERATIONS(SCALE(2))};
 	struct spec_error error;
 
 	make_image(fixture, names, COUNT(names), small, linear);
