@@ -269,7 +269,7 @@ test_grid(void **state)
 static float
 peculiar(const struct spec_channel *channel, int x, int y)
 {
-	static const uint32_t bits[] = {0x7fc12345, 0x7f800000, 0x80000000, 1, 0x3f800001};
+	static const uint32_t bits[] = {0x7f812345, 0x7f800000, 0x80000000, 1, 0x3f800001};
 	float value;
 
 	if (channel->role == SPEC_ROLE_OTHER)
