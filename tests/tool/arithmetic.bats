@@ -405,6 +405,10 @@ ratio() {
     specconvert --reflectance-of lamp.spd --least 0.1 s.exr -o t.exr
   warns "s.exr: without the bands at 700 nm, where '' is below 0 of its most" \
     specconvert --reflectance-of lamp.spd --least 0 s.exr -o t.exr
+  # what is just as much as that stays
+  light half.spd 400 2 700 4
+  specconvert --reflectance-of half.spd --least 0.5 s.exr -o t.exr
+  has_numbers t.exr '400 1' '500 0.75' '600 0.6' '700 0.5'
   light dark.spd 400 0 700 0
   fails_cleanly specconvert --reflectance-of dark.spd s.exr -o x.exr
   spectral t2.exr --kind T
