@@ -8,12 +8,15 @@
 #include "base/number.h"
 #include "cli/options.h"
 #include "cli/progress.h"
+#include "colour/space.h"
+#include "image/atlas.h"
 #include "image/colourcurve.h"
 #include "image/convert.h"
 #include "image/fromrgb.h"
 #include "image/gridof.h"
 #include "image/kind.h"
 #include "image/patches.h"
+#include "image/trace.h"
 #include "image/represented.h"
 #include "image/strip.h"
 #include "image/writer.h"
@@ -60,6 +63,12 @@ static const struct cli_option options[] = {
 	{0, "to", "KIND",
 		"another representation: sampled[:LO:HI:STEP], tabulated,\n"
 		"fourier:N, composite:K or composite:K,N"},
+	{0, "from-plot", "X,Y=WAVELENGTH,VALUE X,Y=WAVELENGTH,VALUE",
+		"read a curve off the picture of a plot, by two places in it"},
+	{0, "ink", "'#RRGGBB'", "the colour of that curve"},
+	{0, "paper", "'#RRGGBB'", "what is behind it (default: '#ffffff')"},
+	{0, "atlas", NULL, "pack curves into an image, four samples in each pixel"},
+	{0, "row", "NAME", "take the curve of that name out of such an image"},
 	{0, "crop", "X0,Y0,X1,Y1",
 		"keep these pixels of the data window; x1, y1 are not in it"},
 	{0, "downsample", "N", "mean of N x N pixels"},
@@ -97,6 +106,10 @@ struct job {
 	enum spec_abscissa abscissa;
 	struct spec_convert_setup setup;
 	int has_interpolation, has_to; /* the options were given */
+	struct spec_trace_axes axes;
+	double ink[3], paper[3];       /* encoded */
+	const char *row;               /* of an atlas, or null */
+	int from_plot, has_ink, atlas; /* the options were given */
 	struct spec_representation to;
 	struct spec_patches_setup patches;
 	int strip;                       /* its height, or 0 */
@@ -243,6 +256,46 @@ take_input(struct job *job, const char *path, struct spec_error *error)
 	return status;
 }
 
+/* A colour, encoded as sRGB has it. */
+static enum spec_status
+take_code(double code[3], const char *text, struct spec_error *error)
+{
+	enum spec_status status =
+		spec_colour_curve_is_name(text)
+			? spec_colour_curve_parse(text, code, error)
+			: spec_error_set(error, SPEC_EUSAGE,
+				  "'%.100s' is no colour ('#ff0000', 'hsv:0,1,1')", text);
+
+	for (int i = 0; i < 3 && status == SPEC_OK; i++)
+		code[i] = spec_srgb_encode(code[i] > 1 ? 1 : code[i]);
+	return status;
+}
+
+/* What makes curves of images, or an image of curves without bands; *known 0: none of these. */
+static enum spec_status
+take_curves(struct job *job, const char *name, const char *value, int *known,
+	struct spec_error *error)
+{
+	*known = 1;
+	if (strcmp(name, "from-plot") == 0) {
+		job->from_plot = 1;
+		return spec_trace_parse(value, &job->axes, error);
+	}
+	if (strcmp(name, "ink") == 0) {
+		job->has_ink = 1;
+		return take_code(job->ink, value, error);
+	}
+	if (strcmp(name, "paper") == 0)
+		return take_code(job->paper, value, error);
+	if (strcmp(name, "atlas") == 0)
+		job->atlas = 1;
+	else if (strcmp(name, "row") == 0)
+		job->row = value;
+	else
+		*known = 0;
+	return SPEC_OK;
+}
+
 static enum spec_status
 take_rule(struct job *job, const char *text, struct spec_error *error)
 {
@@ -343,6 +396,9 @@ take(void *state, const char *name, const char *value, struct spec_error *error)
 		return take_pixels(&job->setup.downsample, 1, "the factor", value, error);
 	if (strcmp(name, "format") == 0)
 		return take_format(job, value, error);
+	status = take_curves(job, name, value, &known, error);
+	if (known)
+		return status;
 	return spec_settings_take(&job->settings, name, value, &known, error);
 }
 
@@ -378,6 +434,17 @@ parse(struct cli *cli, struct job *job, struct spec_error *error)
 	if (job->inputs == 0)
 		cli_check(cli, take_input(job, "-", error), error);
 	check_spectral(cli, job);
+	if (job->from_plot != job->has_ink)
+		cli_usage(cli,
+			job->from_plot
+				? "--from-plot needs the curve's colour (--ink '#ff0000')"
+				: "--ink goes with --from-plot");
+	if (job->from_plot + job->from_rgb + (job->row != NULL) > 1)
+		cli_usage(cli, "--from-rgb, --from-plot and --row exclude each other");
+	if (job->has_to && (job->from_plot || job->row || job->atlas))
+		cli_usage(cli, "--to does not go with --from-plot, --row and --atlas");
+	if (job->atlas && (job->patches.columns > 0 || job->text > 0))
+		cli_usage(cli, "--atlas makes an image, and one without patches");
 	if (!job->as && job->colours.model == SPEC_UPSAMPLING_SUN)
 		job->colours.use = SPEC_UPSAMPLING_LIGHT;
 	if (job->grid_text && strcmp(job->grid_text, "native") == 0)
@@ -439,7 +506,24 @@ take_colour(const struct job *job, const char *name, struct spec_curve *curve,
 				 : status;
 }
 
-/* One curve, or a colour's, after all that is done to it. */
+/* The curve that an image holds: drawn, or as a line of an atlas. */
+static enum spec_status
+take_from_image(const struct job *job, const char *name, struct spec_curve *curve,
+	struct spec_error *error)
+{
+	struct spec_reader *reader;
+	enum spec_status status = spec_reader_open(&reader, name, &job->settings, error);
+
+	if (status != SPEC_OK)
+		return status;
+	status = job->row ? spec_atlas_curve(reader, job->row, curve, error)
+			  : spec_trace_curve(
+				    reader, &job->axes, job->ink, job->paper, curve, error);
+	spec_reader_close(reader);
+	return status;
+}
+
+/* One curve, or that of a colour or an image, after all that is done to it. */
 static enum spec_status
 load_curve(const struct cli *cli, const struct job *job, const struct spec_reshape *reshape,
 	const char *name, struct spec_curve *curve, struct spec_error *error)
@@ -447,9 +531,11 @@ load_curve(const struct cli *cli, const struct job *job, const struct spec_resha
 	struct spec_reshape_notes notes = {0};
 	enum spec_status status =
 		job->from_rgb ? take_colour(job, name, curve, error)
-			      : spec_reshape_curve(name, reshape, curve, &notes, error);
+		: job->from_plot || job->row
+			? take_from_image(job, name, curve, error)
+			: spec_reshape_curve(name, reshape, curve, &notes, error);
 
-	if (status == SPEC_OK && job->from_rgb)
+	if (status == SPEC_OK && (job->from_rgb || job->from_plot || job->row))
 		status = spec_reshape_loaded(name, reshape, curve, &notes, error);
 	if (status != SPEC_OK || job->settings.quiet)
 		return status;
@@ -544,6 +630,9 @@ save_curves(struct job *job, const struct spec_curve *curve, int argc, char **ar
 	if (job->strip > 0)
 		return spec_strip_save(
 			job->settings.output, curve, job->scaling, job->strip, error);
+	if (job->atlas)
+		return spec_atlas_write(curve, job->input, job->inputs, job->setup.grid,
+			job->setup.extrapolate, &job->settings, argc, argv, error);
 	return job->text ? spec_spd_save(job->settings.output, curve, error)
 			 : write_chart(job, curve, argc, argv, error);
 }
@@ -566,6 +655,8 @@ convert_curves(const struct cli *cli, struct job *job, int argc, char **argv,
 	enum spec_status status = check_strip(job, error);
 	struct spec_curve *curve;
 
+	if (job->atlas)
+		job->text = 0;
 	if (status == SPEC_OK && job->strip == 0)
 		status = settle_format(job, 1, error);
 	if (status == SPEC_OK)
@@ -684,6 +775,8 @@ check_image_options(const struct job *job, struct spec_error *error)
 
 	if (job->patches.columns > 0)
 		option = "--patches";
+	else if (job->atlas)
+		option = "--atlas";
 	else if (job->strip > 0 || job->scaling != SPEC_STRIP_AS_IT_IS)
 		option = "--strip";
 	else if (job->abscissa != SPEC_ABSCISSA_NM)
@@ -763,6 +856,7 @@ main(int argc, char **argv)
 {
 	struct job job = {.setup = {.downsample = 1, .least = -1},
 		.patches = {.patch = 1},
+		.paper = {1, 1, 1},
 		.text = -1};
 	struct spec_error error = {0};
 	struct cli_progress progress;
@@ -775,7 +869,7 @@ main(int argc, char **argv)
 	job.settings.show = cli_progress_show;
 	job.settings.show_state = &progress;
 
-	status = spec_kind_is_curve(job.input[0])
+	status = job.from_plot || job.row || spec_kind_is_curve(job.input[0])
 			 ? convert_curves(&cli, &job, argc, argv, &error)
 			 : convert_image(&cli, &job, argc, argv, &error);
 	cli_progress_end(&progress);

@@ -196,9 +196,8 @@ new_curve(const struct spec_reader *reader, struct spec_curve *curve,
 	return status;
 }
 
-/* The shortest decimal that reads back as the same float: 0.1, not 0.10000000149. */
-static double
-shortest(float value)
+double
+spec_patches_shortest(float value)
 {
 	char text[32];
 
@@ -238,7 +237,8 @@ spec_patches_curve(
 						spec_reader_name(reader), x,
 						y - image->data.y0,
 						image->wavelength_nm[i]);
-				curve->value[pixel * image->bands + i] = shortest(row[x]);
+				curve->value[pixel * image->bands + i] =
+					spec_patches_shortest(row[x]);
 			}
 		}
 	}

@@ -49,4 +49,7 @@ enum spec_status spec_patches_write(const struct spec_image *image,
 enum spec_status spec_patches_curve(
 	struct spec_reader *reader, struct spec_curve *curve, struct spec_error *error);
 
+/* The shortest decimal that reads back as the same float: 0.1, not 0.10000000149. */
+double spec_patches_shortest(float value);
+
 #endif

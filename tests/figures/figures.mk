@@ -7,7 +7,7 @@ ROWS = $(patsubst tests/figures/%.sh,%,$(wildcard tests/figures/*.sh))
 FIGURES += $(ROWS:%=$(BUILD)/figures/%/row.txt)
 
 $(BUILD)/figures/%/row.txt: tests/figures/%.sh tests/figures/row tests/figures/measure.bash \
-		tests/figures/transfer.awk tests/figures/plot.awk $(wildcard tests/figures/*.pbrt) $(PROGRAMS) $(TESTHELPERS) $(SPECTRA) | \
+		$(wildcard tests/figures/*.awk tests/figures/*.pbrt) $(PROGRAMS) $(TESTHELPERS) $(SPECTRA) | \
 		$(DATA) $(PLUGIN) $(filter check,$(MAKECMDGOALS))
 	$(SAY) row $*
 	$(QUIET)tests/figures/row $(BUILD) $* >/dev/null || [ $$? = 1 ]
