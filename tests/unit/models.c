@@ -123,7 +123,8 @@ all_come_back(void **state)
 	(void)state;
 	for (size_t m = 0; (each = spec_model_at(m)); m++) {
 		for (int i = 0; i < 17 * 17 * 17 + 5000; i++) {
-			double rgb[3] = {i / 289 / 16., i / 17 % 17 / 16., i % 17 / 16.};
+			int at[3] = {i / 289 % 17, i / 17 % 17, i % 17};
+			double rgb[3] = {at[0] / 16., at[1] / 16., at[2] / 16.};
 			double value[SPEC_MODEL_MOST], back[3];
 
 			for (int c = 0; c < 3 && i >= 17 * 17 * 17; c++)
