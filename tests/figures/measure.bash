@@ -163,8 +163,8 @@ display() {
 }
 
 # plot OUT LOW:HIGH BOTTOM:TOP STEP COLOURS CURVE...: draws curves into OUT, a PPM of 480 x 270 pixels, by
-# plot.awk: 40,249 is LOW nm and BOTTOM, 469,10 is HIGH nm and TOP. COLOURS: "r g b,r g b".
+# draw.awk: 40,249 is LOW nm and BOTTOM, 469,10 is HIGH nm and TOP. COLOURS: "r g b,r g b".
 plot() {
   awk -v low="${2%:*}" -v high="${2#*:}" -v bottom="${3%:*}" -v top="${3#*:}" -v step="$4" -v step_nm=50 \
-    -v width=480 -v height=270 -v colours="$5" -f "${spectra%/*}/tests/figures/plot.awk" "${@:6}" >"$1"
+    -v width=480 -v height=270 -v colours="$5" -f "${spectra%/*}/tests/figures/draw.awk" "${@:6}" >"$1"
 }
