@@ -32,8 +32,6 @@ SPEC_VECTOR_FUNCTION(double, spec_vector_sin, "sin");
 SPEC_VECTOR_FUNCTION(double, spec_vector_cos, "cos");
 SPEC_VECTOR_FUNCTION(double, spec_vector_exp, "exp");
 SPEC_VECTOR_FUNCTION(double, spec_vector_expm1, "expm1");
-extern double spec_vector_pow(double, double) __asm__("pow")
-	__attribute__((simd("notinbranch"), const));
 SPEC_VECTOR_FUNCTION(double, spec_vector_erf, "erf"); /* since glibc 2.35 */
 SPEC_VECTOR_FUNCTION(double, spec_vector_log, "log");
 SPEC_VECTOR_FUNCTION(float, spec_vector_expf, "expf");
@@ -44,7 +42,6 @@ extern double spec_vector_pow(double, double) __asm__("pow")
 #define spec_vector_cos cos
 #define spec_vector_exp exp
 #define spec_vector_expm1 expm1
-#define spec_vector_pow pow
 #define spec_vector_erf erf
 #define spec_vector_log log
 #define spec_vector_pow pow
