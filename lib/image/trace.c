@@ -13,8 +13,7 @@
 #define LEAST 0.1   /* share of ink that belongs to a run */
 #define CERTAIN 0.5 /* share that a run has somewhere */
 #define MOST_PIXEL 1e6
-#define MARGIN                                                                             \
-	4 /* rows above and below: a broad line at an end of the axis is seen whole */
+#define MARGIN 4 /* rows above and below, for a broad line at the axis' end */
 
 /* What is found in a column, going down. */
 struct column {

@@ -13,7 +13,7 @@ picture atlas.png 'spec2rgb --name-map R=650nm,G=550nm,B=450nm --observer displa
 # shortest decimal that is the same float.
 for name in 15-red 13-blue D65 F2 Au TiO2; do
   specconvert --row "$name" atlas.exr >"$name.spd"
-  specconvert --grid 324:835:1 --extrapolate constant "$name" >wanted.txt
+  specconvert -q --grid 324:835:1 --extrapolate constant "$name" >wanted.txt
   grep '^[0-9]' "$name.spd" | paste -d ' ' - <(grep '^[0-9]' wanted.txt) | awk '
     { n = NF / 2; if ($1 != $(n + 1)) exit 1
       for (i = 2; i <= n; i++) { w = $(n + i); print (w ? $i / w - 1 : $i) } }' >errors.txt
@@ -36,7 +36,7 @@ check '15-red: 548 to 551 nm are R, G, B, A of texel 56' \
 # The colours at the end of the lines are those of spec2rgb.
 for line in 14 12 24 25; do
   name=$(sed -n "$((line + 1))p" <<<"$(printf '%s\n' "${patches//.spd/}" D65 F2)")
-  specconvert --patches 1x1 --grid 324:835:1 --extrapolate constant "$name" -o one.exr
+  specconvert -q --patches 1x1 --grid 324:835:1 --extrapolate constant "$name" -o one.exr
   spec2rgb one.exr -o rgb.exr
   paste -d ' ' <(layers --print 128,$line atlas.exr | grep '^[RGB]') <(layers --print 0,0 rgb.exr) |
     awk '$1 != $3 { exit 1 } { print ($4 ? $2 / $4 - 1 : $2) }' >errors.txt

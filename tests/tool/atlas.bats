@@ -45,6 +45,8 @@ setup() {
   specconvert --atlas -g 400:700:50 ramp.spd glass.spd | specconvert --row glass - | cmp - wanted
   specconvert --row glass -o out.spd a.exr
   cmp out.spd wanted
+  # The shortest decimals.
+  specconvert -g 400:700:5 --atlas 15-red | specconvert --row 15-red - | grep -qx '400 0.051'
   # Packed again, the same samples, whatever decimals they passed through.
   specconvert -g 400:700:3 --atlas --no-history -o one.exr 15-red Au
   specconvert --row 15-red one.exr -o 15-red.spd
@@ -86,6 +88,7 @@ setup() {
   [[ $stderr = *"a.exr: has no curve 'nothing' (ramp glass)" ]]
   fails_cleanly specconvert --row '' a.exr
   fails_cleanly specconvert --row glas a.exr
+  fails_cleanly specconvert --row glasses a.exr
 }
 
 @test "what is no atlas, or a damaged one" {

@@ -74,6 +74,13 @@ straight() {
     awk '{ n++; off = $2 - $4; if (off * off > .02 ^ 2) { print; exit 1 } } END { exit n != 57 }'
 }
 
+@test "a broad line at an end of an axis, and at the picture's, counts whole" {
+  drawn foot.ppm 110 70 'if (y >= 57 && y <= 61) g = b = 0'
+  specconvert --from-plot "$axes" --ink '#ff0000' foot.ppm | awk '/^[0-9]/ { n++; if ($2 != 0) exit 1 } END { exit n != 101 }'
+  drawn last.ppm 110 60 'if (y >= 58) g = b = 0'
+  specconvert --from-plot "$axes" --ink '#ff0000' last.ppm | awk '/^[0-9]/ { n++; if ($2 < .009999 || $2 > .010001) exit 1 } END { exit n != 101 }'
+}
+
 @test "what is read goes on as a curve does" {
   drawn a.ppm 110 70 "$slope"
   specconvert --from-plot "$axes" --ink '#ff0000' -g 410:490:20 --scale 100 a.ppm |

@@ -228,6 +228,8 @@ largest_off() {
   fails_cleanly specconvert --from-rgb basis hsv:nan,1,1
   fails_cleanly specconvert --from-rgb basis yuv:1,.3,.3
   [[ $stderr = *"'yuv:1,.3,.3' is no colour of RGB: its red is 1.342, not in [0, 1]" ]]
+  fails_cleanly specconvert --from-rgb basis yuv:0,.2,0
+  [[ $stderr = *"'yuv:0,.2,0' is no colour of RGB: its green is -0.07879, not in [0, 1]" ]]
   fails_cleanly specconvert --from-rgb basis lab:50,0,0
   fails_cleanly specconvert hsv:30,1,1
 }

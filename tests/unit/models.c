@@ -160,6 +160,12 @@ hues_go_round(void **state)
 				near(rgb[1][c], rgb[0][c], 1e-14, "another turn");
 				near(rgb[2][c], .7, 0, "grey");
 			}
+			/* By less than a last place below red, which is 0 and not 360. */
+			rgb[1][0] = 1;
+			rgb[1][1] = .5;
+			rgb[1][2] = nextafter(.5, 1);
+			spec_model_from_rgb(model(names[m]), rgb[1], back);
+			assert_true(back[0] >= 0 && back[0] < 360);
 			spec_model_from_rgb(model(names[m]), rgb[2], back);
 			near(back[0], 0, 0, "hue of a grey");
 			near(back[1], 0, 0, "saturation of a grey");
