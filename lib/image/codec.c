@@ -134,53 +134,61 @@ make_differences(unsigned char *byte, size_t count)
 		byte[i] = (unsigned char)(byte[i] - byte[i - 1] + 128);
 }
 
-static int
-reserve(void **buffer, size_t *room, size_t size)
+/*
+ * The bytes between the predictor and deflate, the calling thread's own: whoever decodes a
+ * chunk and then encodes one does not need both at once, and a chunk of many bands is large.
+ */
+static _Thread_local struct {
+	void *bytes;
+	size_t room;
+} between;
+
+void
+spec_codec_release(void)
 {
-	if (*buffer && *room >= size)
+	free(between.bytes);
+	between.bytes = NULL;
+	between.room = 0;
+}
+
+static int
+reserve(size_t size)
+{
+	if (between.bytes && between.room >= size)
 		return 1;
-	free(*buffer);
-	*buffer = malloc(size);
-	*room = *buffer ? size : 0;
-	return *buffer != NULL;
+	spec_codec_release();
+	between.bytes = malloc(size);
+	between.room = between.bytes ? size : 0;
+	return between.bytes != NULL;
 }
 
 exr_result_t
-spec_codec_inflate(exr_decode_pipeline_t *pipeline)
+spec_codec_unzip(struct libdeflate_decompressor *decompressor, const void *packed,
+	size_t packed_size, void *bytes, size_t size)
 {
-	size_t packed = pipeline->chunk.packed_size, size = pipeline->chunk.unpacked_size;
-
-	if (packed == size) /* stored as it is: both buffers are the same one */
-		return EXR_ERR_SUCCESS;
-	if (!reserve(&pipeline->scratch_buffer_1, &pipeline->scratch_alloc_size_1, size))
+	if (!reserve(size))
 		return EXR_ERR_OUT_OF_MEMORY;
-	if (libdeflate_zlib_decompress(pipeline->decoding_user_data,
-		    pipeline->packed_buffer, packed, pipeline->scratch_buffer_1, size,
-		    NULL) != LIBDEFLATE_SUCCESS)
+	if (libdeflate_zlib_decompress(decompressor, packed, packed_size, between.bytes,
+		    size, NULL) != LIBDEFLATE_SUCCESS)
 		return EXR_ERR_CORRUPT_CHUNK;
-	undo_predictor(pipeline->unpacked_buffer, pipeline->scratch_buffer_1, size);
+	undo_predictor(bytes, between.bytes, size);
 	return EXR_ERR_SUCCESS;
 }
 
 exr_result_t
-spec_codec_deflate(exr_encode_pipeline_t *pipeline)
+spec_codec_zip(struct libdeflate_compressor *compressor, void *bytes, size_t size,
+	size_t *packed_size)
 {
-	struct libdeflate_compressor *compressor = pipeline->encoding_user_data;
-	size_t size = pipeline->packed_bytes, done;
-
-	if (!reserve(&pipeline->scratch_buffer_1, &pipeline->scratch_alloc_size_1, size) ||
-		!reserve(&pipeline->compressed_buffer, &pipeline->compressed_alloc_size,
-			size))
+	if (!reserve(size))
 		return EXR_ERR_OUT_OF_MEMORY;
-	split(pipeline->scratch_buffer_1, pipeline->packed_buffer, size);
-	make_differences(pipeline->scratch_buffer_1, size);
-	done = libdeflate_zlib_compress(compressor, pipeline->scratch_buffer_1, size,
-		pipeline->compressed_buffer, size);
+	split(between.bytes, bytes, size);
+	make_differences(between.bytes, size);
+	*packed_size =
+		libdeflate_zlib_compress(compressor, between.bytes, size, bytes, size);
 	/* A chunk that does not shrink is stored: readers tell it by its size. */
-	if (done == 0 || done >= size) {
-		memcpy(pipeline->compressed_buffer, pipeline->packed_buffer, size);
-		done = size;
+	if (*packed_size == 0 || *packed_size >= size) {
+		undo_predictor(bytes, between.bytes, size);
+		*packed_size = size;
 	}
-	pipeline->compressed_bytes = done;
 	return EXR_ERR_SUCCESS;
 }

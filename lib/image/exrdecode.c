@@ -34,6 +34,7 @@ exr_close_decoder(struct spec_decoder *base)
 			decoder->pipeline.unpacked_alloc_size = 0;
 		exr_decoding_destroy(exr_reader_of(decoder)->context, &decoder->pipeline);
 	}
+	spec_codec_release();
 	if (decoder->decompressor)
 		libdeflate_free_decompressor(decoder->decompressor);
 	free(decoder->unpacked.bytes);
@@ -66,11 +67,25 @@ start_pipeline(struct exr_decoder *decoder, const exr_chunk_info_t *info)
 	result = exr_decoding_choose_default_routines(context, part, pipeline);
 	pipeline->read_fn = read_nothing;
 	pipeline->unpack_and_convert_fn = NULL;
-	if (info->compression == EXR_COMPRESSION_ZIP ||
-		info->compression == EXR_COMPRESSION_ZIPS) {
-		pipeline->decompress_fn = spec_codec_inflate;
-		pipeline->decoding_user_data = decoder->decompressor;
-	}
+	return result;
+}
+
+static exr_result_t
+run_pipeline(
+	struct exr_decoder *decoder, const struct exr_fetched *chunk, unsigned char *room)
+{
+	exr_decode_pipeline_t *pipeline = &decoder->pipeline;
+	exr_result_t result = start_pipeline(decoder, &chunk->info);
+
+	pipeline->packed_buffer = decoder->base.packed.bytes + chunk->at;
+	pipeline->packed_alloc_size = 0;
+	pipeline->unpacked_buffer = room;
+	pipeline->unpacked_alloc_size = chunk->info.unpacked_size;
+	if (result == EXR_ERR_SUCCESS)
+		result = exr_decoding_run(exr_reader_of(decoder)->context,
+			exr_reader_of(decoder)->part, pipeline);
+	pipeline->packed_buffer = pipeline->unpacked_buffer = NULL;
+	pipeline->packed_alloc_size = pipeline->unpacked_alloc_size = 0;
 	return result;
 }
 
@@ -80,7 +95,6 @@ decode_chunk(struct exr_decoder *decoder, const struct exr_fetched *chunk,
 	unsigned char *room, const unsigned char **bytes, struct spec_error *error)
 {
 	const exr_chunk_info_t *info = &chunk->info;
-	exr_decode_pipeline_t *pipeline = &decoder->pipeline;
 	exr_result_t result;
 
 	*bytes = decoder->base.packed.bytes + chunk->at;
@@ -92,17 +106,12 @@ decode_chunk(struct exr_decoder *decoder, const struct exr_fetched *chunk,
 		return SPEC_OK;
 	spec_exr_forget();
 	spec_exr_allow(decoder->base.reader->limits.memory, "memory");
-	result = start_pipeline(decoder, info);
-	pipeline->packed_buffer = decoder->base.packed.bytes + chunk->at;
-	pipeline->packed_alloc_size = 0;
-	pipeline->unpacked_buffer = room;
-	pipeline->unpacked_alloc_size = info->unpacked_size;
-	if (result == EXR_ERR_SUCCESS)
-		result = exr_decoding_run(exr_reader_of(decoder)->context,
-			exr_reader_of(decoder)->part, pipeline);
+	if (spec_codec_is_zip(info->compression))
+		result = spec_codec_unzip(decoder->decompressor, *bytes, info->packed_size,
+			room, info->unpacked_size);
+	else
+		result = run_pipeline(decoder, chunk, room);
 	*bytes = room;
-	pipeline->packed_buffer = pipeline->unpacked_buffer = NULL;
-	pipeline->packed_alloc_size = pipeline->unpacked_alloc_size = 0;
 	if (result == EXR_ERR_OUT_OF_MEMORY || spec_exr_has_note())
 		return spec_exr_error(result, decoder->base.reader->source.name, error);
 	if (result != EXR_ERR_SUCCESS)
@@ -111,6 +120,14 @@ decode_chunk(struct exr_decoder *decoder, const struct exr_fetched *chunk,
 			decoder->base.reader->source.name,
 			exr_reader_of(decoder)->tiled ? decoder->base.y0 : info->start_y);
 	return SPEC_OK;
+}
+
+/* Whether a chunk's lines need another place than that of its packed bytes. */
+static int
+needs_room(const exr_chunk_info_t *info)
+{
+	return info->packed_size != info->unpacked_size &&
+	       !spec_codec_is_zip(info->compression);
 }
 
 static enum spec_status
@@ -127,7 +144,7 @@ decode_scanlines(struct exr_decoder *decoder, struct spec_error *error)
 			return spec_error_set(error, SPEC_EFORMAT,
 				"%s: line %d has a wrong size", reader->base.source.name,
 				info->start_y);
-		if (info->packed_size != info->unpacked_size)
+		if (needs_room(info))
 			total += spec_reading_align(info->unpacked_size);
 	}
 	status = spec_reading_reserve(&decoder->unpacked, total ? total : 1, 0, error);
@@ -136,8 +153,11 @@ decode_scanlines(struct exr_decoder *decoder, struct spec_error *error)
 		const unsigned char *bytes;
 
 		status = decode_chunk(decoder, &decoder->chunk[i],
-			decoder->unpacked.bytes + used, &bytes, error);
-		if (info->packed_size != info->unpacked_size)
+			needs_room(info)
+				? decoder->unpacked.bytes + used
+				: decoder->base.packed.bytes + decoder->chunk[i].at,
+			&bytes, error);
+		if (needs_room(info))
 			used += spec_reading_align(info->unpacked_size);
 		for (int line = 0; line < info->height && status == SPEC_OK; line++) {
 			int row = info->start_y + line - decoder->base.y0;

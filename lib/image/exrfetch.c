@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "image/codec.h"
 #include "image/exr.h"
 #include "image/exrreading.h"
 
@@ -19,6 +20,16 @@ fetch_failed(const struct exr_reader *reader, exr_result_t result, int y,
 			"%s: ends early, in line %d of %d..%d", reader->base.source.name, y,
 			reader->base.image.data.y0, reader->base.image.data.y1 - 1);
 	return status;
+}
+
+/* The room that a chunk is given: ZIP is decoded where it lies. */
+static size_t
+room_for(const exr_chunk_info_t *info)
+{
+	int grows = spec_codec_is_zip(info->compression) &&
+		    info->unpacked_size > info->packed_size;
+
+	return spec_reading_align(grows ? info->unpacked_size : info->packed_size);
 }
 
 /* Reads one chunk to the end of packed. column: the tile's, or 0. */
@@ -50,8 +61,8 @@ fetch_chunk(struct exr_decoder *decoder, int y, int column, size_t *used,
 			reader->base.source.name, y,
 			(unsigned long long)chunk->info.packed_size,
 			(unsigned long long)chunk->info.unpacked_size);
-	status = spec_reading_reserve(&decoder->base.packed,
-		*used + spec_reading_align(chunk->info.packed_size), *used, error);
+	status = spec_reading_reserve(
+		&decoder->base.packed, *used + room_for(&chunk->info), *used, error);
 	if (status != SPEC_OK)
 		return status;
 	result = exr_read_chunk(reader->context, reader->part, &chunk->info,
@@ -60,7 +71,7 @@ fetch_chunk(struct exr_decoder *decoder, int y, int column, size_t *used,
 	if (result != EXR_ERR_SUCCESS || spec_exr_has_note())
 		return fetch_failed(reader, result, y, error);
 	chunk->at = *used;
-	*used += spec_reading_align(chunk->info.packed_size);
+	*used += room_for(&chunk->info);
 	decoder->chunks++;
 	return SPEC_OK;
 }
@@ -72,13 +83,13 @@ take_kept(struct exr_decoder *decoder, size_t *used, struct spec_error *error)
 	struct exr_reader *reader = exr_reader_of(decoder);
 	size_t size = reader->kept_info.packed_size;
 	enum spec_status status = spec_reading_reserve(
-		&decoder->base.packed, *used + spec_reading_align(size), *used, error);
+		&decoder->base.packed, *used + room_for(&reader->kept_info), *used, error);
 
 	if (status != SPEC_OK)
 		return status;
 	memcpy(decoder->base.packed.bytes + *used, reader->kept, size);
 	decoder->chunk[decoder->chunks++] = (struct exr_fetched){reader->kept_info, *used};
-	*used += spec_reading_align(size);
+	*used += room_for(&reader->kept_info);
 	return SPEC_OK;
 }
 

@@ -28,6 +28,7 @@ exr_close_packer(struct spec_packer *base)
 		packer->pipeline.packed_alloc_size = 0;
 		exr_encoding_destroy(exr_writer_of(packer)->context, &packer->pipeline);
 	}
+	spec_codec_release();
 	if (packer->compressor)
 		libdeflate_free_compressor(packer->compressor);
 }
@@ -45,7 +46,6 @@ start_pipeline(struct exr_packer *packer, const exr_chunk_info_t *info)
 {
 	exr_const_context_t context = exr_writer_of(packer)->context;
 	exr_encode_pipeline_t *pipeline = &packer->pipeline;
-	int compression = packer->base.writer->compression;
 	exr_result_t result;
 
 	if (packer->started) {
@@ -59,11 +59,6 @@ start_pipeline(struct exr_packer *packer, const exr_chunk_info_t *info)
 		pipeline->convert_and_pack_fn = pack_nothing;
 		pipeline->yield_until_ready_fn = NULL;
 		pipeline->write_fn = NULL;
-		if (compression == EXR_COMPRESSION_ZIP ||
-			compression == EXR_COMPRESSION_ZIPS) {
-			pipeline->compress_fn = spec_codec_deflate;
-			pipeline->encoding_user_data = packer->compressor;
-		}
 	}
 	for (int i = 0; i < pipeline->channel_count; i++) {
 		exr_coding_channel_info_t *channel = &pipeline->channels[i];
@@ -90,6 +85,9 @@ encode(struct exr_packer *packer, int index, unsigned char *raw)
 	packer->base.chunk_bytes = size;
 	if (writer->base.compression == EXR_COMPRESSION_NONE)
 		return EXR_ERR_SUCCESS;
+	if (spec_codec_is_zip(writer->base.compression))
+		return spec_codec_zip(
+			packer->compressor, raw, size, &packer->base.chunk_bytes);
 	result = exr_write_scanline_chunk_info(writer->context, 0, y, &info);
 	if (result == EXR_ERR_SUCCESS)
 		result = start_pipeline(packer, &info);

@@ -77,6 +77,17 @@ add_line(const struct floor *floor, float *rgb, const float *sample)
 }
 
 static exr_result_t
+inflate(exr_decode_pipeline_t *pipeline)
+{
+	size_t packed = pipeline->chunk.packed_size, size = pipeline->chunk.unpacked_size;
+
+	return packed == size ? EXR_ERR_SUCCESS
+			      : spec_codec_unzip(pipeline->decoding_user_data,
+					pipeline->packed_buffer, packed,
+					pipeline->unpacked_buffer, size);
+}
+
+static exr_result_t
 start_pipeline(struct floor *floor, exr_decode_pipeline_t *pipeline,
 	const exr_chunk_info_t *info, struct libdeflate_decompressor *inflater)
 {
@@ -86,7 +97,7 @@ start_pipeline(struct floor *floor, exr_decode_pipeline_t *pipeline,
 		result = exr_decoding_choose_default_routines(floor->context, 0, pipeline);
 	pipeline->unpack_and_convert_fn = NULL;
 	if (floor->deflated) {
-		pipeline->decompress_fn = spec_codec_inflate;
+		pipeline->decompress_fn = inflate;
 		pipeline->decoding_user_data = inflater;
 	}
 	return result;
