@@ -80,7 +80,7 @@ static const struct cli_option options[] = {
 		"red, green and blue its columns"},
 	{0, "scaling", "none|global|channel",
 		"divide a strip by its greatest value (default: none)"},
-	{'f', "format", "exr|envi|hsr|tiff|bands|spd",
+	{'f', "format", "exr|envi|hsr|tiff|bands|spd|csv",
 		"of the output (default: the suffix of -o, else the input's)"},
 	{0},
 };
@@ -117,6 +117,7 @@ struct job {
 	struct spec_fromrgb_setup colours;
 	int from_rgb, as;             /* the options were given */
 	unsigned long long clamped;   /* pixels whose colour was out of range */
+	int csv;                      /* the text is comma-separated values */
 	unsigned long long overflows; /* samples that --half made infinite */
 	int text; /* the output is: 1 text, 0 an image, -1 as the input */
 	struct spec_settings settings;
@@ -238,7 +239,8 @@ take_format(struct job *job, const char *text, struct spec_error *error)
 {
 	const struct spec_writing_format *format;
 
-	job->text = strcmp(text, "spd") == 0;
+	job->csv = strcmp(text, "csv") == 0;
+	job->text = job->csv || strcmp(text, "spd") == 0;
 	job->settings.format = job->text ? NULL : text;
 	return job->text ? SPEC_OK : spec_writer_choose("-", text, &format, error);
 }
@@ -482,10 +484,21 @@ settle_format(struct job *job, int input_is_text, struct spec_error *error)
 	if (job->text >= 0)
 		return SPEC_OK;
 	job->text = input_is_text && job->patches.columns == 0;
-	if (strcmp(output, "-") == 0 || !*suffix || strncmp(output, "/dev/", 5) == 0)
+	if (strcmp(output, "-") == 0 || !*suffix)
 		return SPEC_OK;
-	job->text = strcasecmp(suffix, ".spd") == 0 || strcasecmp(suffix, ".txt") == 0;
+	job->csv = strcasecmp(suffix, ".csv") == 0;
+	if (strncmp(output, "/dev/", 5) == 0 && !spec_kind_is_text_name(output) &&
+		!spec_writer_knows_suffix(suffix))
+		return SPEC_OK; /* a device's name is not a file's */
+	job->text = spec_kind_is_text_name(output);
 	return job->text ? SPEC_OK : spec_writer_choose(output, NULL, &format, error);
+}
+
+static enum spec_status
+save_curve(const struct job *job, const struct spec_curve *curve, struct spec_error *error)
+{
+	return job->csv ? spec_spd_save_csv(job->settings.output, curve, error)
+			: spec_spd_save(job->settings.output, curve, error);
 }
 
 /* The spectrum of a colour. */
@@ -633,7 +646,7 @@ save_curves(struct job *job, const struct spec_curve *curve, int argc, char **ar
 	if (job->atlas)
 		return spec_atlas_write(curve, job->input, job->inputs, job->setup.grid,
 			job->setup.extrapolate, &job->settings, argc, argv, error);
-	return job->text ? spec_spd_save(job->settings.output, curve, error)
+	return job->text ? save_curve(job, curve, error)
 			 : write_chart(job, curve, argc, argv, error);
 }
 
@@ -642,7 +655,11 @@ convert_curves(const struct cli *cli, struct job *job, int argc, char **argv,
 	struct spec_error *error)
 {
 	const struct spec_convert_setup *setup = &job->setup;
-	struct spec_reshape reshape = {.abscissa = job->abscissa,
+	static const char *const quantities[SPEC_ROLE_BISPECTRAL + 1] = {
+		[SPEC_ROLE_EMISSIVE] = "radiance per nm",
+		[SPEC_ROLE_REFLECTIVE] = "reflectance"};
+	struct spec_reshape reshape = {.quantity = quantities[job->settings.read_as],
+		.abscissa = job->abscissa,
 		.medium = setup->medium,
 		.grid = setup->grid,
 		.rebin = setup->rebin,
@@ -700,7 +717,7 @@ image_to_text(struct job *job, struct spec_reader *reader, struct spec_error *er
 			"specconvert -f spd");
 	status = spec_patches_curve(reader, &curve, error);
 	if (status == SPEC_OK)
-		status = spec_spd_save(job->settings.output, &curve, error);
+		status = save_curve(job, &curve, error);
 	spec_curve_free(&curve);
 	return status;
 }

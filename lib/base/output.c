@@ -287,15 +287,22 @@ close_checked(struct spec_output *output, struct spec_error *error)
 	return close(fd) < 0 ? write_failed(output, errno, error) : SPEC_OK;
 }
 
-enum spec_status
-spec_output_commit(struct spec_output *output, struct spec_error *error)
+/* All but the file's own name, which renaming gives it. */
+static enum spec_status
+complete(struct spec_output *output, struct spec_error *error)
 {
 	enum spec_status status = SPEC_OK;
 
 	if (output->target && !output->temporary)
 		status = give_name(output, error);
-	if (status == SPEC_OK)
-		status = close_checked(output, error);
+	return status == SPEC_OK ? close_checked(output, error) : status;
+}
+
+enum spec_status
+spec_output_commit(struct spec_output *output, struct spec_error *error)
+{
+	enum spec_status status = complete(output, error);
+
 	if (status == SPEC_OK && output->target &&
 		rename(output->temporary, output->target) < 0)
 		status = write_failed(output, errno, error);
@@ -305,6 +312,85 @@ spec_output_commit(struct spec_output *output, struct spec_error *error)
 	}
 	clear(output);
 	return SPEC_OK;
+}
+
+/* The file that an output replaces. */
+struct old {
+	int was_there;
+	char *name; /* a second one that it has meanwhile, or null */
+};
+
+static void
+keep_old(const struct spec_output *output, struct old *old)
+{
+	size_t size = strlen(output->temporary) + 8;
+	struct stat status;
+
+	old->was_there = lstat(output->target, &status) == 0;
+	old->name = old->was_there ? spec_memory_new(size, 1, "bytes", NULL) : NULL;
+	if (!old->name)
+		return;
+	snprintf(old->name, size, "%s-old", output->temporary);
+	if (link(output->target, old->name) == 0)
+		return;
+	free(old->name);
+	old->name = NULL; /* not every file system has links */
+}
+
+static void
+put_back(const struct spec_output *output, const struct old *old)
+{
+	if (old->name)
+		(void)rename(old->name, output->target);
+	else if (!old->was_there)
+		(void)unlink(output->target);
+}
+
+/* Gives all their names; *named: how many have them. */
+static enum spec_status
+rename_all(struct spec_output *const *output, size_t count, struct old *old, size_t *named,
+	struct spec_error *error)
+{
+	for (*named = 0; *named < count; ++*named) {
+		struct spec_output *next = output[*named];
+
+		if (!next->target)
+			continue;
+		if (*named + 1 < count) /* no failure can follow the last one */
+			keep_old(next, &old[*named]);
+		if (rename(next->temporary, next->target) < 0)
+			return write_failed(next, errno, error);
+	}
+	return SPEC_OK;
+}
+
+enum spec_status
+spec_output_commit_all(
+	struct spec_output *const *output, size_t count, struct spec_error *error)
+{
+	struct old *old = spec_memory_new(count, sizeof *old, "files", error);
+	enum spec_status status = old ? SPEC_OK : SPEC_ENOMEM;
+	size_t named = 0;
+
+	for (size_t i = 0; i < count && status == SPEC_OK; i++)
+		status = complete(output[i], error);
+	if (status == SPEC_OK)
+		status = rename_all(output, count, old, &named, error);
+	for (size_t i = 0; old && i < count; i++) {
+		if (status != SPEC_OK && i < named && output[i]->target)
+			put_back(output[i], &old[i]);
+		else if (old[i].name)
+			(void)unlink(old[i].name);
+		free(old[i].name);
+	}
+	free(old);
+	for (size_t i = 0; i < count; i++) {
+		if (status == SPEC_OK)
+			clear(output[i]);
+		else
+			spec_output_abandon(output[i]);
+	}
+	return status;
 }
 
 void

@@ -41,6 +41,13 @@ enum spec_status spec_output_write_at(struct spec_output *output, const void *da
  */
 enum spec_status spec_output_commit(struct spec_output *output, struct spec_error *error);
 
+/*
+ * Commits several named files together: all of them have their new content afterwards, or,
+ * after an error, all their old one, as far as renaming back goes. All are finished with.
+ */
+enum spec_status spec_output_commit_all(
+	struct spec_output *const *output, size_t count, struct spec_error *error);
+
 /* Drops what was written, as far as that can be done. Harmless after commit. */
 void spec_output_abandon(struct spec_output *output);
 

@@ -49,12 +49,14 @@ copy_trimmed(const char *from, const char *to, struct spec_error *error)
 	return spec_memory_text(from, (size_t)(to - from), error);
 }
 
-/* A key as it is compared: lower case, with single blanks. */
+/* A key as it is compared: lower case, with single blanks. Our own are as we wrote them. */
 static void
 normalise_key(char *key)
 {
 	char *to = key;
 
+	if (strncmp(key, "spec:", 5) == 0)
+		return;
 	for (const char *from = key; *from; from++) {
 		if (isspace((unsigned char)*from) && to > key && to[-1] == ' ')
 			continue;
@@ -100,28 +102,37 @@ take_value(struct text *text, char **value, struct spec_error *error)
 	return *value ? SPEC_OK : SPEC_ENOMEM;
 }
 
+const char *
+envi_header_find(const struct envi_header *header, const char *key)
+{
+	for (size_t i = 0; i < header->fields; i++) {
+		if (strcmp(header->field[i].key, key) == 0)
+			return header->field[i].value;
+	}
+	return NULL;
+}
+
 static enum spec_status
 take_field(struct text *text, struct envi_header *header, struct spec_error *error)
 {
-	const char *end = line_end(text);
-	const char *equals = memchr(text->at, '=', (size_t)(end - text->at));
+	const char *end = line_end(text), *equals, *known;
+	int first = text->line;
 	void *list = header->field;
 	struct envi_field field = {0};
 	enum spec_status status;
 
-	for (const char *at = text->at; !equals && at < end; at++) {
-		if (*at == ';')
-			break; /* a comment */
-		if (!isspace((unsigned char)*at))
-			return spec_error_set(error, SPEC_EFORMAT,
-				"%s:%d: is neither 'key = value' nor a comment", text->name,
-				text->line);
-	}
-	if (!equals || *text->at == ';') {
+	while (text->at < end && isspace((unsigned char)*text->at))
+		text->at++;
+	equals = memchr(text->at, '=', (size_t)(end - text->at));
+	if (text->at == end || *text->at == ';') { /* nothing, or a comment */
 		text->at = end < text->end ? end + 1 : end;
 		text->line++;
 		return SPEC_OK;
 	}
+	if (!equals)
+		return spec_error_set(error, SPEC_EFORMAT,
+			"%s:%d: is neither 'key = value' nor a comment", text->name,
+			text->line);
 	if (header->fields >= MOST_FIELDS)
 		return spec_error_set(error, SPEC_ERANGE, "%s:%d: more than %d fields",
 			text->name, text->line, MOST_FIELDS);
@@ -138,18 +149,13 @@ take_field(struct text *text, struct envi_header *header, struct spec_error *err
 		return status;
 	}
 	normalise_key(field.key);
+	known = envi_header_find(header, field.key);
+	if (known && strcmp(known, field.value) != 0)
+		status = spec_error_set(error, SPEC_EFORMAT,
+			"%s:%d: '%.60s' is there twice, with other values", text->name,
+			first, field.key);
 	header->field[header->fields++] = field;
-	return SPEC_OK;
-}
-
-const char *
-envi_header_find(const struct envi_header *header, const char *key)
-{
-	for (size_t i = 0; i < header->fields; i++) {
-		if (strcmp(header->field[i].key, key) == 0)
-			return header->field[i].value;
-	}
-	return NULL;
+	return status;
 }
 
 /* A whole number; value stays what it was where there is no such key and none is needed. */
@@ -267,6 +273,53 @@ envi_header_free(struct envi_header *header)
 	}
 	free(header->field);
 	*header = (struct envi_header){0};
+}
+
+/* What is written by its number; an end is the first or the last character. */
+static int
+is_coded(char character, int end)
+{
+	return strchr("{}%", character) || (end && isspace((unsigned char)character));
+}
+
+void
+envi_text_write(FILE *file, const char *text, size_t size)
+{
+	for (size_t i = 0; i < size; i++) {
+		if (is_coded(text[i], i == 0 || i + 1 == size))
+			fprintf(file, "%%%02X", (unsigned char)text[i]);
+		else
+			fputc(text[i], file);
+	}
+}
+
+static int
+hexadecimal(char digit)
+{
+	static const char digits[] = "0123456789ABCDEF";
+	const char *found = digit ? strchr(digits, digit) : NULL;
+
+	return found ? (int)(found - digits) : -1;
+}
+
+void
+envi_text_decode(char *text)
+{
+	char *to = text;
+
+	while (*text) {
+		int high = *text == '%' ? hexadecimal(text[1]) : -1,
+		    low = high >= 0 ? hexadecimal(text[2]) : -1;
+		char character = (char)(high * 16 + low);
+
+		if (low >= 0 && character && is_coded(character, 1)) {
+			*to++ = character;
+			text += 3;
+		} else {
+			*to++ = *text++;
+		}
+	}
+	*to = '\0';
 }
 
 enum spec_status

@@ -7,6 +7,7 @@
 #define SPEC_IMAGE_ENVIHEADER_H
 
 #include <stddef.h>
+#include <stdio.h>
 
 #include "base/error.h"
 
@@ -26,7 +27,7 @@ enum envi_type {
 };
 
 struct envi_field {
-	char *key;   /* lower case, single blanks */
+	char *key; /* lower case, single blanks; as it stands where it begins with spec: */
 	char *value; /* without the braces, trimmed */
 };
 
@@ -43,8 +44,9 @@ struct envi_header {
 
 /*
  * Reads a header from its text of so many bytes. name stands for the file in messages,
- * which begin "name:line: ". Errors: SPEC_EFORMAT, SPEC_EUNSUPPORTED (complex numbers, a
- * compressed file), SPEC_ENOMEM. On an error header is empty.
+ * which begin "name:line: ". Errors: SPEC_EFORMAT (also a key that stands there twice),
+ * SPEC_EUNSUPPORTED (complex numbers, a compressed file), SPEC_ENOMEM. On an error header
+ * is empty.
  */
 enum spec_status envi_header_parse(const char *text, size_t size, const char *name,
 	struct envi_header *header, struct spec_error *error);
@@ -60,6 +62,14 @@ const char *envi_header_find(const struct envi_header *header, const char *key);
  */
 enum spec_status envi_header_numbers(const struct envi_header *header, const char *key,
 	const char *name, double **number, struct spec_error *error);
+
+/*
+ * Our own texts, under keys "spec:…", may hold what ends a value or is trimmed from it:
+ * braces, and blanks at either end, are written as % and two hexadecimal digits, and so is
+ * the sign %. A % that nothing of that kind follows stands for itself.
+ */
+void envi_text_write(FILE *file, const char *text, size_t size);
+void envi_text_decode(char *text);
 
 /* Bytes of a sample; 0: no such type is read. */
 size_t envi_type_bytes(int type);

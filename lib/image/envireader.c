@@ -8,16 +8,23 @@
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "base/memory.h"
 #include "base/number.h"
+#include "image/description.h"
 #include "image/enviheader.h"
 #include "image/given.h"
 #include "image/names.h"
 #include "image/reading.h"
+#include "image/samples.h"
 
 #define MOST_HEADER (16 << 20) /* bytes */
+
+/* Of ours, beside attributes. */
+#define DISPLAY "spec:display window"
+#define ASPECT "spec:pixel aspect"
 
 struct envi_reader {
 	struct spec_reader base;
@@ -70,7 +77,7 @@ find_header(const char *path, char *header, size_t room)
 		FILE *file;
 
 		with_suffix(header, room, path, ends[i], ".hdr");
-		file = strcmp(header, path) != 0 ? fopen(header, "re") : NULL;
+		file = *header && strcmp(header, path) != 0 ? fopen(header, "re") : NULL;
 		if (!file)
 			continue;
 		got = fread(bytes, 1, sizeof bytes, file);
@@ -95,8 +102,10 @@ static enum spec_status
 open_data(struct envi_reader *reader, const char *path, struct spec_error *error)
 {
 	static const char *const suffixes[] = {"", ".img", ".raw", ".dat", ".bin", ".bsq",
-		".bil", ".bip", ".cube", ".hyspex", ".IMG", ".RAW", ".DAT"};
+		".bil", ".bip", ".cube", ".hyspex", ".IMG", ".RAW", ".DAT", ".BIN", ".BSQ",
+		".BIL", ".BIP"};
 	char name[4096];
+	struct stat about;
 
 	if (strcmp(path, "-") == 0)
 		return spec_error_set(error, SPEC_EUSAGE,
@@ -105,7 +114,9 @@ open_data(struct envi_reader *reader, const char *path, struct spec_error *error
 			reader->base.source.name);
 	for (size_t i = 0; i < sizeof suffixes / sizeof *suffixes; i++) {
 		with_suffix(name, sizeof name, path, stem_length(path), suffixes[i]);
-		if (*name && strcmp(name, path) != 0 && access(name, F_OK) == 0) {
+		/* A folder of the image's name is often beside it. */
+		if (*name && strcmp(name, path) != 0 && stat(name, &about) == 0 &&
+			!S_ISDIR(about.st_mode)) {
 			reader->from = &reader->data;
 			return spec_source_open(&reader->data, name, 1, error);
 		}
@@ -285,7 +296,45 @@ get_role(const struct envi_reader *reader, const struct spec_settings *settings,
 		reader->base.source.name);
 }
 
-/* value = number * gain + offset, where the header says so. */
+/* The number of a field; what is no number (NaN is written, too) is an error. */
+static enum spec_status
+get_number(const struct envi_reader *reader, const char *key, const char *text,
+	double least, double most, double *number, struct spec_error *error)
+{
+	enum spec_status status;
+
+	if (strcasecmp(text, "nan") == 0 && least == -HUGE_VAL) {
+		*number = NAN;
+		return SPEC_OK;
+	}
+	status = spec_number_parse(text, least, most, key, number, error);
+	if (status != SPEC_OK)
+		spec_error_prefix(error, "%s", reader->base.source.name);
+	return status;
+}
+
+/* Gains and offsets, which there need not be yet, by a factor. */
+static enum spec_status
+divide(struct envi_reader *reader, double factor, struct spec_error *error)
+{
+	size_t bands = (size_t)reader->header.bands;
+
+	if (!reader->gain) {
+		reader->gain = spec_memory_new(bands, sizeof *reader->gain, "bands", error);
+		for (size_t i = 0; reader->gain && i < bands; i++)
+			reader->gain[i] = 1;
+	}
+	if (!reader->gain)
+		return SPEC_ENOMEM;
+	for (size_t i = 0; i < bands; i++) {
+		reader->gain[i] /= factor;
+		if (reader->offset)
+			reader->offset[i] /= factor;
+	}
+	return SPEC_OK;
+}
+
+/* value = (number * gain + offset) / reflectance scale factor, where the header says so. */
 static enum spec_status
 get_scale(struct envi_reader *reader, struct spec_error *error)
 {
@@ -302,26 +351,20 @@ get_scale(struct envi_reader *reader, struct spec_error *error)
 		status = envi_header_numbers(
 			header, "data offset values", name, &reader->offset, error);
 	if (status == SPEC_OK && ignored)
-		status = spec_number_parse(ignored, -HUGE_VAL, HUGE_VAL,
-			"the data ignore value", &reader->ignored, error);
+		status = get_number(reader, "data ignore value", ignored, -HUGE_VAL,
+			HUGE_VAL, &reader->ignored, error);
 	if (status == SPEC_OK && scale)
-		status = spec_number_parse(
-			scale, 1e-30, 1e30, "the reflectance scale factor", &factor, error);
+		status = get_number(reader, "reflectance scale factor", scale, 1e-30, 1e30,
+			&factor, error);
 	if (status != SPEC_OK)
 		return status;
-	if (factor == 1)
-		return SPEC_OK;
-	if (!reader->gain)
-		reader->gain = spec_memory_new(
-			(size_t)header->bands, sizeof *reader->gain, "bands", error);
-	if (!reader->gain)
-		return SPEC_ENOMEM;
-	for (long long i = 0; i < header->bands; i++)
-		reader->gain[i] = (reader->gain[i] != 0 ? reader->gain[i] : 1) / factor;
-	return SPEC_OK;
+	return factor == 1 ? SPEC_OK : divide(reader, factor, error);
 }
 
-/* Keys whose meaning a field of the image or of the reader holds. */
+/*
+ * Keys whose meaning a field of the image or of the reader holds, and lists by band, which
+ * other bands would make wrong.
+ */
 static int
 is_known(const char *key)
 {
@@ -329,7 +372,7 @@ is_known(const char *key)
 		"data type", "byte order", "interleave", "file compression", "file type",
 		"wavelength", "wavelength units", "data gain values", "data offset values",
 		"reflectance scale factor", "data ignore value", "x start", "y start",
-		"band names", "default bands", "fwhm", "bbl", "data units"};
+		"band names", "default bands", "fwhm", "bbl", DISPLAY, ASPECT};
 
 	for (size_t i = 0; i < sizeof known / sizeof *known; i++)
 		if (strcmp(key, known[i]) == 0)
@@ -338,18 +381,45 @@ is_known(const char *key)
 }
 
 static enum spec_status
+keep_ours(struct envi_reader *reader, struct envi_field *field, struct spec_error *error)
+{
+	struct spec_image *image = &reader->base.image;
+	const char *name = reader->base.source.name;
+	long long samples;
+	enum spec_status status;
+
+	envi_text_decode(field->value);
+	if (strcmp(field->key, "spec:samples") != 0)
+		return spec_image_set_text(image, field->key, field->value, error);
+	status = spec_number_parse_whole(
+		field->value, 1, INT32_MAX, field->key, &samples, error);
+	if (status != SPEC_OK) {
+		spec_error_prefix(error, "%s", name);
+		return status;
+	}
+	return spec_samples_set(image, samples, name, error);
+}
+
+static enum spec_status
 keep_fields(struct envi_reader *reader, struct spec_error *error)
 {
+	const char *quantity = envi_header_find(&reader->header, "spec:quantity");
 	enum spec_status status = SPEC_OK;
 	char name[250];
 
 	for (size_t i = 0; i < reader->header.fields && status == SPEC_OK; i++) {
-		const struct envi_field *field = &reader->header.field[i];
-		int ours = strncmp(field->key, "spec:", 5) == 0;
+		struct envi_field *field = &reader->header.field[i];
 
 		if (is_known(field->key) || !*field->key || strlen(field->key) > 200)
 			continue;
-		snprintf(name, sizeof name, "%s%s", ours ? "" : "envi:", field->key);
+		if (quantity && strcmp(field->key, "data units") == 0 &&
+			strcmp(field->value, quantity) == 0)
+			continue; /* as our writer has them */
+		if (strncmp(field->key, "spec:", 5) == 0) {
+			status = keep_ours(reader, field, error);
+			continue;
+		}
+		snprintf(name, sizeof name, "envi:%s", field->key);
 		status =
 			spec_image_set_text(&reader->base.image, name, field->value, error);
 	}
@@ -364,7 +434,7 @@ get_corner(const struct envi_reader *reader, const char *key, int *corner,
 	const char *text = envi_header_find(&reader->header, key);
 	double value = 1;
 	enum spec_status status =
-		text ? spec_number_parse(text, -(1 << 29), 1 << 29, key, &value, error)
+		text ? get_number(reader, key, text, -(1 << 29), 1 << 29, &value, error)
 		     : SPEC_OK;
 
 	*corner = (int)floor(value) - 1;
@@ -375,6 +445,9 @@ static enum spec_status
 set_window(struct envi_reader *reader, struct spec_error *error)
 {
 	struct spec_image *image = &reader->base.image;
+	const char *display = envi_header_find(&reader->header, DISPLAY),
+		   *aspect = envi_header_find(&reader->header, ASPECT);
+	double ratio = 1;
 	enum spec_status status = get_corner(reader, "x start", &image->data.x0, error);
 
 	if (status == SPEC_OK)
@@ -382,14 +455,16 @@ set_window(struct envi_reader *reader, struct spec_error *error)
 	image->data.x1 = image->data.x0 + (int)reader->header.samples;
 	image->data.y1 = image->data.y0 + (int)reader->header.lines;
 	image->display = image->data;
-	image->pixel_aspect_ratio = image->screen_window_width = 1;
+	if (status == SPEC_OK && display) {
+		status = spec_description_parse_window(display, &image->display, error);
+		if (status != SPEC_OK)
+			spec_error_prefix(error, "%s", reader->base.source.name);
+	}
+	if (status == SPEC_OK && aspect)
+		status = get_number(reader, ASPECT, aspect, 1e-6, 1e6, &ratio, error);
+	image->pixel_aspect_ratio = (float)ratio;
+	image->screen_window_width = 1;
 	return status;
-}
-
-static enum spec_sample
-sample_of(int type)
-{
-	return type == ENVI_U8 ? SPEC_SAMPLE_HALF : SPEC_SAMPLE_FLOAT;
 }
 
 /* The channels in the layout's names, and which band of the file each one is. */
@@ -399,11 +474,8 @@ set_bands(struct envi_reader *reader, const double *wavelength_nm, enum spec_rol
 {
 	struct spec_image *image = &reader->base.image;
 	size_t bands = (size_t)reader->header.bands;
-	enum spec_sample sample = reader->gain || reader->offset
-					  ? SPEC_SAMPLE_FLOAT
-					  : sample_of(reader->header.type);
-	enum spec_status status =
-		spec_image_add_bands(image, role, 1, wavelength_nm, bands, sample, error);
+	enum spec_status status = spec_image_add_bands(
+		image, role, 1, wavelength_nm, bands, SPEC_SAMPLE_FLOAT, error);
 
 	if (status == SPEC_OK)
 		status = spec_image_index(image, reader->base.source.name, error);
@@ -423,10 +495,14 @@ static enum spec_status
 check_data(const struct envi_reader *reader, struct spec_error *error)
 {
 	const struct envi_header *header = &reader->header;
-	long long needed =
-		header->offset + header->lines * header->samples * header->bands *
-					 (long long)envi_type_bytes(header->type);
+	long long needed;
 
+	if (__builtin_mul_overflow(header->lines * header->samples,
+		    header->bands * (long long)envi_type_bytes(header->type), &needed) ||
+		__builtin_add_overflow(needed, header->offset, &needed))
+		return spec_error_set(error, SPEC_ERANGE,
+			"%s: describes more bytes than a file can have",
+			reader->base.source.name);
 	if (!reader->from->seekable)
 		return spec_error_set(error, SPEC_EUNSUPPORTED,
 			"%s: the data of an ENVI file must be a regular file",
@@ -541,7 +617,7 @@ fetch(struct spec_decoder *decoder, struct spec_error *error)
 	return status;
 }
 
-/* Reads count numbers of a C type, step bytes apart, either byte order. */
+/* Reads count numbers of a C type, step bytes apart, in either byte order. */
 #define CONVERT(type, bits)                                                                \
 	for (size_t x = 0; x < count; x++, from += step) {                                 \
 		uint##bits##_t raw;                                                        \
@@ -600,6 +676,22 @@ scale(const struct envi_reader *reader, size_t band, float *row, size_t count)
 		row[x] = (float)(row[x] * gain + offset);
 }
 
+/* Where a band's first sample in a line of what was fetched lies, in samples. */
+static size_t
+place(const struct envi_header *header, size_t band, size_t line, size_t lines)
+{
+	size_t width = (size_t)header->samples, bands = (size_t)header->bands;
+
+	switch (header->interleave) {
+	case ENVI_BSQ:
+		return (band * lines + line) * width;
+	case ENVI_BIL:
+		return (line * bands + band) * width;
+	default:
+		return line * width * bands + band;
+	}
+}
+
 /* Floats of this machine's that lie line by line can be used where they were fetched. */
 static int
 needs_no_copy(const struct envi_reader *reader)
@@ -611,33 +703,52 @@ needs_no_copy(const struct envi_reader *reader)
 	       isnan(reader->ignored);
 }
 
+static void
+point(struct spec_decoder *decoder, const struct envi_reader *reader)
+{
+	size_t channels = reader->base.image.channels, lines = (size_t)decoder->lines;
+
+	for (size_t i = 0; i < lines * channels; i++)
+		decoder->row[i] = (float *)(void *)decoder->packed.bytes +
+				  place(&reader->header, reader->band[i % channels],
+					  i / channels, lines);
+}
+
 static enum spec_status
 decode(struct spec_decoder *decoder, struct spec_error *error)
 {
 	const struct envi_reader *reader = (const struct envi_reader *)decoder->reader;
 	const struct envi_header *header = &reader->header;
 	size_t size = envi_type_bytes(header->type), width = (size_t)header->samples,
-	       bands = (size_t)header->bands, lines = (size_t)decoder->lines,
-	       channels = reader->base.image.channels;
-	int direct = needs_no_copy(reader);
-	enum spec_status status = direct ? SPEC_OK : spec_reading_planes(decoder, error);
+	       lines = (size_t)decoder->lines, channels = reader->base.image.channels,
+	       pixel = (size_t)header->bands * size,
+	       step = header->interleave == ENVI_BIP ? pixel : size,
+	       run = header->interleave == ENVI_BIP ? spec_reading_run(pixel) : width;
+	enum spec_status status = SPEC_OK;
 
-	for (size_t i = 0; status == SPEC_OK && i < lines * channels; i++) {
-		size_t line = i / channels, band = reader->band[i % channels];
-		float *row = direct ? NULL : decoder->row[i];
-		size_t at = header->interleave == ENVI_BSQ   ? (band * lines + line) * width
-			    : header->interleave == ENVI_BIL ? (line * bands + band) * width
-							     : line * width * bands + band;
-		size_t step = header->interleave == ENVI_BIP ? bands * size : size;
+	if (needs_no_copy(reader)) {
+		point(decoder, reader);
+		return SPEC_OK;
+	}
+	status = spec_reading_planes(decoder, error);
+	for (size_t line = 0; status == SPEC_OK && line < lines; line++) {
+		for (size_t i = 0; i < (width + run - 1) / run * channels; i++) {
+			size_t x = i / channels * run, channel = i % channels;
+			size_t band = reader->band[channel];
+			float *row = decoder->row[line * channels + channel];
 
-		if (direct)
-			decoder->row[i] =
-				(float *)(void *)(decoder->packed.bytes + at * size);
-		if (!row)
-			continue;
-		convert(header->type, header->swapped, decoder->packed.bytes + at * size,
-			step, row, width);
-		scale(reader, band, row, width);
+			if (!row)
+				continue;
+			convert(header->type, header->swapped,
+				decoder->packed.bytes +
+					place(header, band, line, lines) * size + x * step,
+				step, row + x, width - x < run ? width - x : run);
+		}
+		for (size_t i = 0; i < channels; i++) {
+			if (decoder->row[line * channels + i])
+				scale(reader, reader->band[i],
+					decoder->row[line * channels + i], width);
+		}
 	}
 	return status;
 }

@@ -11,7 +11,9 @@
 #include "base/memory.h"
 #include "base/output.h"
 #include "base/text.h"
+#include "image/description.h"
 #include "image/enviheader.h"
+#include "image/samples.h"
 #include "image/writing.h"
 #include "spectrum/spd.h"
 
@@ -25,7 +27,7 @@ struct envi_writer {
 
 struct envi_packer {
 	struct spec_packer base;
-	float *line; /* the bands of a line in the file's order, or null: they lie so */
+	float *samples; /* of a chunk, in the file's order */
 };
 
 /* ---- names ---- */
@@ -90,26 +92,49 @@ write_list(FILE *file, const char *key, const double *number, size_t count)
 	fputs("}\n", file);
 }
 
-/* Texts of ours and those that came from an ENVI file; a brace would end the value. */
+/* Texts of ours, and those that came from an ENVI file, where a brace would end the value. */
 static void
 write_attributes(FILE *file, const struct spec_image *image)
 {
 	for (size_t i = 0; i < image->attributes; i++) {
 		const struct spec_attribute *attribute = &image->attribute[i];
-		int ours = strncmp(attribute->name, "spec:", 5) == 0,
-		    theirs = strncmp(attribute->name, "envi:", 5) == 0;
+		const char *name = attribute->name, *value = (const char *)attribute->value;
 
-		if ((!ours && !theirs) || strcmp(attribute->type, "string") != 0 ||
-			memchr(attribute->value, '}', attribute->size) ||
-			strchr(attribute->name, '='))
+		if (strcmp(attribute->type, "string") != 0 || strpbrk(name, "=\n{};") ||
+			strcmp(name, "spec:quantity") == 0 ||
+			strcmp(name, "envi:data units") == 0)
 			continue;
-		fprintf(file, "%s = {%.*s}\n", attribute->name + (theirs ? 5 : 0),
-			(int)attribute->size, (const char *)attribute->value);
+		if (strncmp(name, "spec:", 5) == 0) {
+			fprintf(file, "%s = {", name);
+			envi_text_write(file, value, attribute->size);
+			fputs("}\n", file);
+		} else if (strncmp(name, "envi:", 5) == 0 &&
+			   !memchr(value, '}', attribute->size)) {
+			fprintf(file, "%s = {%.*s}\n", name + 5, (int)attribute->size,
+				value);
+		}
 	}
 }
 
+/* Where the image lies, as far as it is not where one that says nothing does. */
 static void
-write_header(FILE *file, const struct envi_writer *writer, const char *quantity)
+write_place(FILE *file, const struct spec_image *image)
+{
+	const struct spec_window *data = &image->data, *display = &image->display;
+	char text[SPEC_DESCRIPTION_WINDOW], number[SPEC_SPD_NUMBER];
+
+	fprintf(file, "x start = %d\ny start = %d\n", data->x0 + 1, data->y0 + 1);
+	spec_description_window(text, display);
+	if (memcmp(data, display, sizeof *data) != 0)
+		fprintf(file, "spec:display window = {%s}\n", text);
+	spec_spd_format_number(image->pixel_aspect_ratio, number);
+	if (image->pixel_aspect_ratio != 1)
+		fprintf(file, "spec:pixel aspect = %s\n", number);
+}
+
+static void
+write_header(FILE *file, const struct envi_writer *writer, const char *quantity,
+	long long samples)
 {
 	static const char *const names[] = {"bsq", "bil", "bip"};
 	const struct spec_image *image = writer->base.image;
@@ -122,10 +147,15 @@ write_header(FILE *file, const struct envi_writer *writer, const char *quantity)
 		"interleave = %s\nbyte order = %d\n",
 		ENVI_F32, names[writer->interleave],
 		__BYTE_ORDER__ == __ORDER_BIG_ENDIAN__);
-	fprintf(file, "x start = %d\ny start = %d\n", image->data.x0 + 1,
-		image->data.y0 + 1);
-	fprintf(file, "data units = {%s}\nwavelength units = Nanometers\n", quantity);
+	write_place(file, image);
+	fputs("data units = {", file);
+	envi_text_write(file, quantity, strlen(quantity));
+	fputs("}\nspec:quantity = {", file);
+	envi_text_write(file, quantity, strlen(quantity));
+	fputs("}\nwavelength units = Nanometers\n", file);
 	write_list(file, "wavelength", image->wavelength_nm, image->bands);
+	if (samples > 0)
+		fprintf(file, "spec:samples = %lld\n", samples);
 	write_attributes(file, image);
 }
 
@@ -134,10 +164,15 @@ save_header(struct envi_writer *writer, struct spec_error *error)
 {
 	struct spec_text text = {0};
 	char *quantity = spec_image_quantity(writer->base.image, error);
-	enum spec_status status = quantity ? spec_text_open(&text, error) : SPEC_ENOMEM;
+	long long samples = 0;
+	enum spec_status status = quantity ? spec_samples_get(writer->base.image, &samples,
+						     writer->base.path, error)
+					   : SPEC_ENOMEM;
 
+	if (status == SPEC_OK)
+		status = spec_text_open(&text, error);
 	if (status == SPEC_OK) {
-		write_header(text.stream, writer, quantity);
+		write_header(text.stream, writer, quantity, samples);
 		status = spec_text_close(&text, error);
 	}
 	if (status == SPEC_OK)
@@ -167,6 +202,8 @@ open_writer(struct spec_writer *base, struct spec_error *error)
 		status = spec_error_set(error, SPEC_EUSAGE,
 			"%s: bands one after the other need a regular file (.bil, .bip)",
 			writer->data_path);
+	if (status == SPEC_OK && writer->interleave == ENVI_BSQ)
+		base->chunk_lines = spec_writing_plane_lines(base);
 	return status == SPEC_OK ? save_header(writer, error) : status;
 }
 
@@ -176,48 +213,43 @@ open_packer(struct spec_packer *base, struct spec_error *error)
 	struct envi_packer *packer = (struct envi_packer *)base;
 	const struct spec_image *image = base->writer->image;
 
-	packer->line = spec_memory_aligned(spec_window_width(&image->data) * image->bands,
-		sizeof(float), "samples", error);
-	return packer->line ? SPEC_OK : SPEC_ENOMEM;
+	packer->samples =
+		spec_memory_aligned(spec_window_width(&image->data) * image->bands *
+					    (size_t)base->writer->chunk_lines,
+			sizeof(float), "samples", error);
+	return packer->samples ? SPEC_OK : SPEC_ENOMEM;
 }
 
 static void
 close_packer(struct spec_packer *packer)
 {
-	free(((struct envi_packer *)packer)->line);
+	free(((struct envi_packer *)packer)->samples);
 }
 
-/* The bands by wavelength: channels lie in the order of their names. */
 static enum spec_status
 encode(struct spec_packer *base, int index, unsigned char *raw, struct spec_error *error)
 {
 	struct envi_packer *packer = (struct envi_packer *)base;
 	const struct envi_writer *writer = (const struct envi_writer *)base->writer;
-	const struct spec_image *image = base->writer->image;
-	size_t width = spec_window_width(&image->data), bands = image->bands;
 
-	(void)index;
-	(void)raw;
 	(void)error;
-	for (size_t band = 0; band < bands; band++) {
-		const float *from = base->plane[image->band_channel[band]];
-
-		if (writer->interleave != ENVI_BIP)
-			memcpy(packer->line + band * width, from, width * sizeof *from);
-		for (size_t x = 0; writer->interleave == ENVI_BIP && x < width; x++)
-			packer->line[x * bands + band] = from[x];
-	}
-	base->chunk = packer->line;
-	base->chunk_bytes = width * bands * sizeof(float);
+	base->chunk = packer->samples; /* of as many bytes */
+	if (writer->interleave == ENVI_BIP)
+		spec_writing_by_pixel(base->writer, raw, packer->samples);
+	else
+		spec_writing_by_band(base->writer, index, raw, packer->samples);
 	return SPEC_OK;
 }
 
 static enum spec_status
-write_line(struct spec_packer *packer, int index, struct spec_error *error)
+write_chunk(struct spec_packer *packer, int index, struct spec_error *error)
 {
 	struct envi_writer *writer = (struct envi_writer *)packer->writer;
 	const struct spec_image *image = writer->base.image;
-	size_t bytes = spec_window_width(&image->data) * sizeof(float);
+	size_t width = spec_window_width(&image->data) * sizeof(float),
+	       height = spec_window_height(&image->data),
+	       first = (size_t)index * (size_t)writer->base.chunk_lines,
+	       lines = (size_t)spec_writing_lines(&writer->base, index);
 	enum spec_status status = SPEC_OK;
 
 	if (writer->interleave != ENVI_BSQ)
@@ -225,26 +257,20 @@ write_line(struct spec_packer *packer, int index, struct spec_error *error)
 			&writer->data, packer->chunk, packer->chunk_bytes, error);
 	for (size_t band = 0; band < image->bands && status == SPEC_OK; band++)
 		status = spec_output_write_at(&writer->data,
-			(const char *)packer->chunk + band * bytes, bytes,
-			(int64_t)((band * spec_window_height(&image->data) +
-					  (size_t)index) *
-				  bytes),
-			error);
+			(const char *)packer->chunk + band * lines * width, lines * width,
+			(int64_t)((band * height + first) * width), error);
 	return status;
 }
 
-/* The data first: a header without them would be worse. */
+/* Both or none: a header without its data would be worse than nothing. */
 static enum spec_status
 commit(struct spec_writer *base, struct spec_error *error)
 {
 	struct envi_writer *writer = (struct envi_writer *)base;
-	enum spec_status status = spec_output_commit(&writer->data, error);
+	struct spec_output *both[] = {&writer->data, &writer->header};
 
-	writer->data_open = 0;
-	if (status != SPEC_OK)
-		return status;
-	writer->header_open = 0;
-	return spec_output_commit(&writer->header, error);
+	writer->data_open = writer->header_open = 0;
+	return spec_output_commit_all(both, 2, error);
 }
 
 static void
@@ -266,10 +292,11 @@ const struct spec_writing_format spec_writing_envi = {
 	.writer_bytes = sizeof(struct envi_writer),
 	.packer_bytes = sizeof(struct envi_packer),
 	.makes_files = 1,
+	.own_samples = 1,
 	.open = open_writer,
 	.open_packer = open_packer,
 	.encode = encode,
-	.write = write_line,
+	.write = write_chunk,
 	.commit = commit,
 	.close_packer = close_packer,
 	.close = close_writer,

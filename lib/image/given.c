@@ -16,8 +16,11 @@ take_wavelength(const char **text, double *wavelength_nm, struct spec_error *err
 	size_t length = strcspn(*text, ",");
 	char number[LONGEST_WAVELENGTH];
 
-	snprintf(number, sizeof number, "%.*s",
-		(int)(length < sizeof number ? length : sizeof number - 1), *text);
+	if (length >= sizeof number)
+		return spec_error_set(error, SPEC_EUSAGE,
+			"a wavelength is longer than %zu characters: '%.40s'",
+			sizeof number - 1, *text);
+	snprintf(number, sizeof number, "%.*s", (int)length, *text);
 	*text += length + ((*text)[length] == ',');
 	return spec_number_parse_length(number, "the wavelength", wavelength_nm, error);
 }

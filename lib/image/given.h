@@ -14,8 +14,8 @@
  * spec_number_parse_length reads it, and a NAME that holds a comma or an equals sign
  * cannot be given.
  * Errors (SPEC_EUSAGE): a map that is not of that form; a name that the image lacks, if
- * no other channel of it is a band, or that is there twice; a channel whose own name says another wavelength; read_as where
- * the names say it.
+ * no other channel of it is a band, or that is there twice; a channel whose own name says
+ * another wavelength; read_as where the names say it.
  */
 enum spec_status spec_given_apply(struct spec_image *image,
 	const struct spec_settings *settings, const char *name, struct spec_error *error);

@@ -13,11 +13,14 @@
 
 #define HSR_EXPONENT_EXCESS 128
 
-/* A byte stands for the middle of the numbers that were cut to it; exponent 0 is black. */
+/* A byte stands for the middle of the numbers that were cut to it. */
+#define HSR_MIDDLE .5
+
+/* What a byte's 1 is worth beside this exponent; 0 is black. */
 static inline double
-hsr_value(unsigned char byte, unsigned char exponent)
+hsr_power(unsigned char exponent)
 {
-	return exponent == 0 ? 0 : ldexp(byte + .5, exponent - (HSR_EXPONENT_EXCESS + 8));
+	return exponent == 0 ? 0 : ldexp(1, exponent - (HSR_EXPONENT_EXCESS + 8));
 }
 
 #endif

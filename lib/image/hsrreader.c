@@ -22,6 +22,7 @@ struct hsr_reader {
 	size_t bands; /* of a pixel in the file: NCOMP */
 	double longest_nm, shortest_nm;
 	double exposure;
+	double power[256];     /* of two, that each byte of an exponent stands for */
 	int64_t data;          /* where the pixels begin */
 	unsigned char *header; /* of so many bytes, pixels behind it perhaps among them */
 	size_t header_bytes;
@@ -30,16 +31,18 @@ struct hsr_reader {
 	int spectral; /* the format's line was there */
 };
 
+/* Pictures of red, green and blue begin alike: the name tells them apart, or the format. */
 static int
 recognises(const unsigned char *bytes, size_t size, const char *path)
 {
+	static const char format[] = "_spectra\n";
 	size_t length = strlen(path);
 
 	if (size < 10 || memcmp(bytes, "#?RADIANCE", 10) != 0)
 		return 0;
-	/* Pictures of red, green and blue begin alike: the name must tell. */
 	return strcmp(path, "-") == 0 ||
-	       (length > 4 && strcasecmp(path + length - 4, ".hsr") == 0);
+	       (length > 4 && strcasecmp(path + length - 4, ".hsr") == 0) ||
+	       memmem(bytes, size, format, sizeof format - 1);
 }
 
 /* ---- the header ---- */
@@ -235,6 +238,8 @@ open_reader(struct spec_reader *base, const char *path,
 
 	(void)path;
 	reader->exposure = 1;
+	for (int i = 0; i < 256; i++)
+		reader->power[i] = hsr_power((unsigned char)i);
 	base->image.pixel_aspect_ratio = base->image.screen_window_width = 1;
 	status = read_header(reader, error);
 	if (status == SPEC_OK && !reader->spectral)
@@ -290,24 +295,39 @@ fetch(struct spec_decoder *decoder, struct spec_error *error)
 	return status;
 }
 
+/* One band of count pixels, which begin at from. */
+static void
+decode_run(const struct hsr_reader *reader, const unsigned char *from, size_t band,
+	float *row, size_t count)
+{
+	size_t bands = reader->bands;
+	double whole = HSR_RANGE_NM * reader->exposure;
+
+	for (size_t x = 0; x < count; x++, from += bands + 1)
+		row[x] = (float)((from[bands - 1 - band] + HSR_MIDDLE) *
+				 reader->power[from[bands]] / whole);
+}
+
 static enum spec_status
 decode(struct spec_decoder *decoder, struct spec_error *error)
 {
 	const struct hsr_reader *reader = (const struct hsr_reader *)decoder->reader;
 	const struct spec_image *image = &reader->base.image;
-	size_t width = spec_window_width(&image->data), bands = reader->bands;
+	size_t width = spec_window_width(&image->data), pixel = reader->bands + 1,
+	       run = spec_reading_run(pixel);
 	enum spec_status status = spec_reading_planes(decoder, error);
 
-	for (size_t i = 0; status == SPEC_OK && i < bands * (size_t)decoder->lines; i++) {
-		size_t line = i / bands, band = i % bands;
-		const unsigned char *pixel =
-			decoder->packed.bytes + line * width * (bands + 1);
-		float *row =
-			decoder->row[line * image->channels + image->band_channel[band]];
+	for (size_t line = 0; status == SPEC_OK && line < (size_t)decoder->lines; line++) {
+		for (size_t i = 0; i < (width + run - 1) / run * reader->bands; i++) {
+			size_t x = i / reader->bands * run, band = i % reader->bands;
+			float *row = decoder->row[line * image->channels +
+						  image->band_channel[band]];
 
-		for (size_t x = 0; row && x < width; x++, pixel += bands + 1)
-			row[x] = (float)(hsr_value(pixel[bands - 1 - band], pixel[bands]) /
-					 (HSR_RANGE_NM * reader->exposure));
+			if (row)
+				decode_run(reader,
+					decoder->packed.bytes + (line * width + x) * pixel,
+					band, row + x, width - x < run ? width - x : run);
+		}
 	}
 	return status;
 }

@@ -72,16 +72,42 @@ check_image(const struct spec_writer *writer, double *step_nm, struct spec_error
 	return density ? SPEC_OK : fail(writer, "radiance per nm, not per band", error);
 }
 
-/* Lines that came from such a picture; an exposure was divided out. */
+/* A line of text that comes from an attribute; what the header says itself is left out. */
+static void
+write_line(FILE *file, const char *line, size_t length)
+{
+	static const char *const own[] = {
+		"#?", "FORMAT=", "NCOMP=", "WAVELENGTH_SPLITS=", "EXPOSURE=", "PIXASPECT="};
+
+	for (size_t i = 0; i < sizeof own / sizeof *own; i++)
+		if (strncmp(line, own[i], strlen(own[i])) == 0)
+			return;
+	if (length > 0) /* an empty line would end the header */
+		fprintf(file, "%.*s\n", (int)length, line);
+}
+
+/*
+ * Lines that came from such a picture, in which an exposure was divided out, and our
+ * history, which is commands as Radiance's own tools add them.
+ */
 static enum spec_status
 write_kept(FILE *file, const struct spec_image *image, struct spec_error *error)
 {
-	char *text;
-	enum spec_status status = spec_image_text(image, "radiance:header", &text, error);
+	static const char *const names[] = {"radiance:header", "spec:history"};
+	enum spec_status status = SPEC_OK;
 
-	if (status == SPEC_OK && text && !strstr(text, "\n\n"))
-		fputs(text, file);
-	free(text);
+	for (size_t i = 0; i < 2 && status == SPEC_OK; i++) {
+		char *text;
+
+		status = spec_image_text(image, names[i], &text, error);
+		for (const char *line = text; line && *line;) {
+			size_t length = strcspn(line, "\n");
+
+			write_line(file, line, length);
+			line += length + (line[length] == '\n');
+		}
+		free(text);
+	}
 	return status;
 }
 
@@ -199,6 +225,7 @@ encode(struct spec_packer *base, int index, unsigned char *raw, struct spec_erro
 const struct spec_writing_format spec_writing_hsr = {
 	.name = "hsr",
 	.suffixes = ".hsr",
+	.own_samples = 1,
 	.writer_bytes = sizeof(struct spec_writer),
 	.packer_bytes = sizeof(struct hsr_packer),
 	.open = open_writer,

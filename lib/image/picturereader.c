@@ -1,6 +1,7 @@
 /*
- * Reading what OpenImageIO reads: a picture of red, green and blue, a file of many channels
- * that are bands, or a folder (or a list) of pictures of one band each.
+ * Reading pictures: one of red, green and blue, a file of many channels that are bands, or
+ * a folder (or a list) of pictures of one band each. PNG is read here, which the plugin with
+ * OpenImageIO is not loaded for; all else by that.
  */
 #include <ctype.h>
 #include <dirent.h>
@@ -18,6 +19,7 @@
 #include "image/description.h"
 #include "image/given.h"
 #include "image/plugin.h"
+#include "image/pnginput.h"
 #include "image/reading.h"
 
 #define MOST_FILES 4096
@@ -25,9 +27,14 @@
 /* One file of the picture. */
 struct input {
 	char *path;
-	void *handle;
+	struct spec_png *png;
+	struct spec_source source; /* of a PNG picture that is one of several */
+	void *handle;              /* the plugin's */
 	struct spec_pictures_content content;
-	double wavelength_nm; /* that its name says, or 0 */
+	struct spec_png_content png_content;
+	double wavelength_nm; /* that it says, or its name; or 0 */
+	int has_bin;
+	double bin_nm[2];
 };
 
 struct picture_reader {
@@ -37,8 +44,25 @@ struct picture_reader {
 	size_t inputs, input_room;
 	/* Of each channel of the image: which input's, and which of its channels. */
 	size_t *from_input, *from_channel;
-	int encoded; /* red, green and blue are to be made linear */
+	int colours; /* light as eyes see it: to be made linear where it is not */
 };
+
+/* A file of Windows' begins with two letters only: the sizes behind must fit, too. */
+static int
+is_bmp(const unsigned char *bytes, size_t size)
+{
+	return size >= 26 && memcmp(bytes, "BM", 2) == 0 &&
+	       memcmp(bytes + 6, "\0\0\0\0", 4) == 0 &&
+	       (bytes[14] == 12 || bytes[14] >= 40) && bytes[15] == 0;
+}
+
+/* P1..P6, PF, Pf, white space, and a number or a comment. */
+static int
+is_pnm(const unsigned char *bytes, size_t size)
+{
+	return size > 3 && bytes[0] == 'P' && bytes[1] && strchr("123456Ff", bytes[1]) &&
+	       isspace(bytes[2]) && (isdigit(bytes[3]) || bytes[3] == '#');
+}
 
 static int
 recognises(const unsigned char *bytes, size_t size, const char *path)
@@ -46,21 +70,18 @@ recognises(const unsigned char *bytes, size_t size, const char *path)
 	static const struct {
 		const char *bytes;
 		size_t count, at;
-	} magic[] = {{"\x89PNG", 4, 0}, {"\xff\xd8\xff", 3, 0}, {"II*\0", 4, 0},
-		{"MM\0*", 4, 0}, {"II+\0", 4, 0}, {"MM\0+", 4, 0}, {"#?RADIANCE", 10, 0},
-		{"#?RGBE", 6, 0}, {"WEBP", 4, 8}, {"SDPX", 4, 0}, {"XPDS", 4, 0},
-		{"GIF8", 4, 0}, {"BM", 2, 0}};
+	} magic[] = {{"\xff\xd8\xff", 3, 0}, {"II*\0", 4, 0}, {"MM\0*", 4, 0},
+		{"II+\0", 4, 0}, {"MM\0+", 4, 0}, {"#?RADIANCE", 10, 0}, {"#?RGBE", 6, 0},
+		{"WEBP", 4, 8}, {"SDPX", 4, 0}, {"XPDS", 4, 0}, {"GIF8", 4, 0}};
 
-	if (strcmp(path, "-") == 0)
-		return 0; /* OpenImageIO wants a file */
+	(void)path;
 	for (size_t i = 0; i < sizeof magic / sizeof *magic; i++) {
 		if (size >= magic[i].at + magic[i].count &&
 			memcmp(bytes + magic[i].at, magic[i].bytes, magic[i].count) == 0)
 			return 1;
 	}
-	/* P1..P6, PF, Pf, and white space. */
-	return size > 2 && bytes[0] == 'P' && strchr("123456Ff", bytes[1]) && bytes[1] &&
-	       isspace(bytes[2]);
+	return spec_png_recognises(bytes, size) || is_bmp(bytes, size) ||
+	       is_pnm(bytes, size);
 }
 
 /* ---- the files ---- */
@@ -79,7 +100,8 @@ add_input(struct picture_reader *reader, const char *folder, const char *name,
 	if (status != SPEC_OK)
 		return status;
 	input = &reader->input[reader->inputs];
-	*input = (struct input){.path = spec_memory_new(length, 1, "bytes", error)};
+	*input = (struct input){
+		.path = spec_memory_new(length, 1, "bytes", error), .source = {.fd = -1}};
 	if (!input->path)
 		return SPEC_ENOMEM;
 	snprintf(input->path, length, "%s%s%s", folder, *folder ? "/" : "", name);
@@ -102,10 +124,13 @@ compare_paths(const void *a, const void *b)
 {
 	const struct input *one = a, *two = b;
 
-	return strcmp(one->path, two->path);
+	return strverscmp(one->path, two->path);
 }
 
-/* Everything in a folder but hidden files, text and folders, in the order of the names. */
+/*
+ * Everything in a folder but hidden files, text and folders, in the order of the names, in
+ * which 2 comes before 10.
+ */
 static enum spec_status
 list_folder(struct picture_reader *reader, const char *path, struct spec_error *error)
 {
@@ -137,13 +162,70 @@ list_folder(struct picture_reader *reader, const char *path, struct spec_error *
 	return status;
 }
 
+/* Takes a picture for PNG, and begins to read it, if it is; *is_png. */
+static enum spec_status
+try_png(struct input *input, struct spec_source *source, int *is_png,
+	struct spec_error *error)
+{
+	unsigned char bytes[16];
+	size_t got;
+	enum spec_status status =
+		spec_source_read(source, bytes, sizeof bytes, 0, &got, error);
+
+	*is_png = status == SPEC_OK && spec_png_recognises(bytes, got);
+	if (!*is_png)
+		return status;
+	status = spec_png_open(&input->png, source, &input->png_content, error);
+	input->content = (struct spec_pictures_content){.format = "png",
+		.width = input->png_content.width,
+		.height = input->png_content.height,
+		.channels = input->png_content.channels,
+		.integers = 1,
+		.description = ""};
+	return status;
+}
+
+/* OpenImageIO wants a file by its name: a pipe is copied into one without. */
+static enum spec_status
+open_foreign(struct picture_reader *reader, struct input *input, struct spec_error *error)
+{
+	struct spec_source *source = &reader->base.source;
+	int piped = source->fd >= 0 && (!source->seekable || source->fd == STDIN_FILENO);
+	char name[64];
+	enum spec_status status = SPEC_OK;
+
+	if (source->fd >= 0 && !source->seekable)
+		status = spec_source_spool(source, error);
+	snprintf(name, sizeof name, "/proc/self/fd/%d", source->fd);
+	if (status == SPEC_OK && !reader->plugin.table)
+		status = spec_plugin_load(&reader->plugin, error);
+	return status == SPEC_OK
+		       ? reader->plugin.table->open_input(&input->handle,
+				 piped ? name : input->path, &input->content, error)
+		       : status;
+}
+
 static enum spec_status
 open_input(struct picture_reader *reader, struct input *input, struct spec_error *error)
 {
+	struct spec_source *source = &reader->base.source;
 	struct spec_error cause = {0};
-	enum spec_status status = reader->plugin.table->open_input(
-		&input->handle, input->path, &input->content, &cause);
+	enum spec_status status = SPEC_OK;
+	int is_png = 0;
 
+	if (source->fd < 0) {
+		source = &input->source;
+		status = spec_source_open(
+			source, input->path, (size_t)reader->base.limits.header, error);
+		if (status != SPEC_OK)
+			return status;
+	}
+	status = try_png(input, source, &is_png, &cause);
+	if (status == SPEC_OK && !is_png) {
+		if (source == &input->source)
+			spec_source_close(source);
+		status = open_foreign(reader, input, &cause);
+	}
 	return status == SPEC_OK ? SPEC_OK
 				 : spec_error_set(error, status, "%s: %s", input->path,
 					   cause.message);
@@ -154,7 +236,7 @@ open_inputs(struct picture_reader *reader, struct spec_error *error)
 {
 	struct spec_image *image = &reader->base.image;
 	const struct spec_pictures_content *first;
-	enum spec_status status = spec_plugin_load(&reader->plugin, error);
+	enum spec_status status = SPEC_OK;
 
 	for (size_t i = 0; i < reader->inputs && status == SPEC_OK; i++)
 		status = open_input(reader, &reader->input[i], error);
@@ -165,7 +247,7 @@ open_inputs(struct picture_reader *reader, struct spec_error *error)
 		const struct spec_pictures_content *other = &reader->input[i].content;
 
 		/* Grey that was saved as red, green and blue is one band. */
-		if (reader->inputs > 1 && other->channels > 4)
+		if (reader->base.source.fd < 0 && other->channels > 4)
 			return spec_error_set(error, SPEC_EUSAGE,
 				"one image at a time, or pictures of one band each: %s has "
 				"%d channels",
@@ -223,7 +305,11 @@ set_colours(struct picture_reader *reader, const struct spec_settings *settings,
 		name[0] = letters[i];
 		status = spec_image_add_channel(image, name, SPEC_SAMPLE_FLOAT, error);
 	}
-	reader->encoded = content->encoded;
+	reader->colours = 1;
+	if (status == SPEC_OK && reader->input[0].png_content.has_primaries)
+		status = spec_image_set_attribute(image, "chromaticities", "chromaticities",
+			reader->input[0].png_content.primaries,
+			sizeof reader->input[0].png_content.primaries, error);
 	if (status == SPEC_OK)
 		status = settle_channels(reader, settings, error);
 	for (int i = 0; i < content->channels && status == SPEC_OK; i++) {
@@ -258,21 +344,40 @@ set_bands(struct picture_reader *reader, const struct spec_grid *grid, enum spec
 
 static enum spec_status
 find_role(const struct picture_reader *reader, const struct spec_settings *settings,
-	const char *quantity, enum spec_role *role, struct spec_error *error)
+	enum spec_role *role, struct spec_error *error)
 {
+	char *quantity;
+
 	*role = settings->read_as;
 	if (*role != SPEC_ROLE_OTHER)
 		return SPEC_OK;
+	quantity = spec_image_quantity(&reader->base.image, error);
+	if (!quantity)
+		return SPEC_ENOMEM;
 	if (strstr(quantity, "radiance"))
 		*role = SPEC_ROLE_EMISSIVE;
 	else if (strstr(quantity, "reflectance") || strstr(quantity, "transmittance"))
 		*role = SPEC_ROLE_REFLECTIVE;
-	else
-		return spec_error_set(error, SPEC_EUSAGE,
-			"%s: does not say whether it holds radiance or reflectance "
-			"(--read-as)",
-			reader->base.source.name);
-	return SPEC_OK;
+	free(quantity);
+	if (*role != SPEC_ROLE_OTHER)
+		return SPEC_OK;
+	return spec_error_set(error, SPEC_EUSAGE,
+		"%s: does not say whether it holds radiance or reflectance (--read-as)",
+		reader->base.source.name);
+}
+
+/* What the first picture says of the image. */
+static enum spec_status
+describe(struct picture_reader *reader, struct spec_description *said,
+	struct spec_error *error)
+{
+	const struct input *input = &reader->input[0];
+	enum spec_status status = spec_description_read(
+		input->content.description, &reader->base.image, said, error);
+
+	if (status == SPEC_EFORMAT)
+		spec_error_prefix(error, "%s", input->path);
+	return status;
 }
 
 /* Many channels in one file: what it describes itself as, or what the user says. */
@@ -282,28 +387,31 @@ set_cube(struct picture_reader *reader, const struct spec_settings *settings,
 {
 	const struct spec_pictures_content *content = &reader->input[0].content;
 	const char *name = reader->base.source.name;
-	struct spec_grid grid = {0};
+	struct spec_image *image = &reader->base.image;
+	struct spec_description said;
+	struct spec_grid given = {0};
 	enum spec_role role = SPEC_ROLE_OTHER;
-	char *quantity;
-	enum spec_status status = spec_description_read(content->description,
-		&reader->base.image, settings->wavelengths ? NULL : &grid, error);
+	enum spec_status status = describe(reader, &said, error);
+	int says = status == SPEC_OK && !settings->wavelengths && said.grid.count > 0;
 
-	if (status == SPEC_OK && grid.count == 0)
+	if (status == SPEC_OK && !says) {
 		status = spec_given_wavelengths(
-			settings, (size_t)content->channels, name, &grid, error);
-	if (status == SPEC_OK && grid.count != (size_t)content->channels)
-		status = spec_error_set(error, SPEC_EFORMAT,
-			"%s: describes %zu bands and has %d channels", name, grid.count,
-			content->channels);
-	if (status == SPEC_OK) {
-		quantity = spec_image_quantity(&reader->base.image, error);
-		status = quantity ? find_role(reader, settings, quantity, &role, error)
-				  : SPEC_ENOMEM;
-		free(quantity);
+			settings, (size_t)content->channels, name, &given, error);
+		spec_image_remove_attribute(image, "spec:bins");
 	}
+	if (says && said.grid.count != (size_t)content->channels)
+		status = spec_error_set(error, SPEC_EFORMAT,
+			"%s: describes %zu bands and has %d channels", name,
+			said.grid.count, content->channels);
+	if (status == SPEC_OK && says && said.has_bin && said.grid.count == 1)
+		status = spec_image_set_bins(image, said.bin_nm, 1, error);
 	if (status == SPEC_OK)
-		status = set_bands(reader, &grid, role, settings, error);
-	spec_grid_free(&grid);
+		status = find_role(reader, settings, &role, error);
+	if (status == SPEC_OK)
+		status = set_bands(
+			reader, says ? &said.grid : &given, role, settings, error);
+	spec_description_free(&said);
+	spec_grid_free(&given);
 	return status;
 }
 
@@ -338,21 +446,43 @@ compare_wavelengths(const void *a, const void *b)
 	       (one->wavelength_nm < two->wavelength_nm);
 }
 
-/* Of each picture the wavelength that its name says, if all do; sorted by it. */
+/* The wavelength of a picture, and its bin, as it says itself, or as its name does. */
 static enum spec_status
-read_names(struct picture_reader *reader, struct spec_grid *grid, struct spec_error *error)
+find_wavelength(struct input *input, struct spec_error *error)
 {
+	const char *description = input->content.description;
+	struct spec_image passed = {
+		.data = {0, 0, input->content.width, input->content.height}};
+	struct spec_description said = {0};
+	enum spec_status status = SPEC_OK;
+
+	if (spec_description_is_ours(description))
+		status = spec_description_read(description, &passed, &said, error);
+	if (status == SPEC_EFORMAT)
+		spec_error_prefix(error, "%s", input->path);
+	input->wavelength_nm = said.grid.count == 1 ? said.grid.wavelength_nm[0]
+						    : wavelength_of(input->path);
+	input->has_bin = said.has_bin && said.grid.count == 1;
+	memcpy(input->bin_nm, said.bin_nm, sizeof input->bin_nm);
+	spec_description_free(&said);
+	spec_image_clear(&passed);
+	return status;
+}
+
+/* Of each picture its wavelength, if all have one; sorted by it. */
+static enum spec_status
+find_wavelengths(
+	struct picture_reader *reader, struct spec_grid *grid, struct spec_error *error)
+{
+	enum spec_status status = SPEC_OK;
 	size_t known = 0;
-	enum spec_status status;
 
-	for (size_t i = 0; i < reader->inputs; i++) {
-		struct input *input = &reader->input[i];
-
-		input->wavelength_nm = wavelength_of(input->path);
-		known += input->wavelength_nm > 0;
+	for (size_t i = 0; i < reader->inputs && status == SPEC_OK; i++) {
+		status = find_wavelength(&reader->input[i], error);
+		known += reader->input[i].wavelength_nm > 0;
 	}
-	if (known < reader->inputs)
-		return SPEC_OK;
+	if (status != SPEC_OK || known < reader->inputs)
+		return status;
 	qsort(reader->input, reader->inputs, sizeof *reader->input, compare_wavelengths);
 	status = spec_grid_new(reader->inputs, grid, error);
 	for (size_t i = 0; i < reader->inputs && status == SPEC_OK; i++) {
@@ -365,28 +495,48 @@ read_names(struct picture_reader *reader, struct spec_grid *grid, struct spec_er
 	return status;
 }
 
+/* The bins of all pictures, where they have some that lie side by side. */
+static enum spec_status
+join_bins(struct picture_reader *reader, struct spec_error *error)
+{
+	size_t count = reader->inputs;
+	double *edges_nm = spec_memory_new(count + 1, sizeof *edges_nm, "edges", error);
+	enum spec_status status = SPEC_OK;
+	int joined = 1;
+
+	if (!edges_nm)
+		return SPEC_ENOMEM;
+	for (size_t i = 0; i < count; i++) {
+		const struct input *input = &reader->input[i];
+
+		joined &= input->has_bin && (i == 0 || input->bin_nm[0] == edges_nm[i]);
+		edges_nm[i] = input->bin_nm[0];
+		edges_nm[i + 1] = input->bin_nm[1];
+	}
+	if (joined)
+		status = spec_image_set_bins(&reader->base.image, edges_nm, count, error);
+	free(edges_nm);
+	return status;
+}
+
 static enum spec_status
 set_stack(struct picture_reader *reader, const struct spec_settings *settings,
 	struct spec_error *error)
 {
-	const char *name = reader->base.source.name;
 	struct spec_grid grid = {0};
 	enum spec_role role = SPEC_ROLE_OTHER;
-	char *quantity = NULL;
-	enum spec_status status = spec_description_read(
-		reader->input[0].content.description, &reader->base.image, NULL, error);
+	enum spec_status status = describe(reader, NULL, error);
 
+	spec_image_remove_attribute(&reader->base.image, "spec:bins");
 	if (status == SPEC_OK && !settings->wavelengths)
-		status = read_names(reader, &grid, error);
+		status = find_wavelengths(reader, &grid, error);
 	if (status == SPEC_OK && grid.count == 0)
 		status = spec_given_wavelengths(
-			settings, reader->inputs, name, &grid, error);
-	if (status == SPEC_OK) {
-		quantity = spec_image_quantity(&reader->base.image, error);
-		status = quantity ? find_role(reader, settings, quantity, &role, error)
-				  : SPEC_ENOMEM;
-	}
-	free(quantity);
+			settings, reader->inputs, reader->base.source.name, &grid, error);
+	else if (status == SPEC_OK)
+		status = join_bins(reader, error);
+	if (status == SPEC_OK)
+		status = find_role(reader, settings, &role, error);
 	if (status == SPEC_OK)
 		status = set_bands(reader, &grid, role, settings, error);
 	spec_grid_free(&grid);
@@ -407,7 +557,7 @@ open_reader(struct spec_reader *base, const char *path,
 
 	if (reader->inputs == 0)
 		status = folder ? list_folder(reader, path, error)
-				: add_input(reader, "", path, error);
+				: add_input(reader, "", base->source.name, error);
 	if (status == SPEC_OK)
 		status = open_inputs(reader, error);
 	if (status != SPEC_OK)
@@ -433,9 +583,13 @@ close_reader(struct spec_reader *base)
 	struct picture_reader *reader = (struct picture_reader *)base;
 
 	for (size_t i = 0; i < reader->inputs; i++) {
-		if (reader->input[i].handle)
-			reader->plugin.table->close_input(reader->input[i].handle);
-		free(reader->input[i].path);
+		struct input *input = &reader->input[i];
+
+		if (input->handle)
+			reader->plugin.table->close_input(input->handle);
+		spec_png_close(input->png);
+		spec_source_close(&input->source);
+		free(input->path);
 	}
 	free(reader->input);
 	free(reader->from_input);
@@ -453,13 +607,16 @@ fetch(struct spec_decoder *decoder, struct spec_error *error)
 	enum spec_status status = spec_reading_reserve(&decoder->packed,
 		reader->base.line_bytes * (size_t)decoder->lines, 0, error);
 	float *to = (float *)(void *)decoder->packed.bytes;
+	int first = decoder->y0 - reader->base.image.data.y0, end = first + decoder->lines;
 	struct spec_error cause = {0};
 
 	for (size_t i = 0; i < reader->inputs && status == SPEC_OK; i++) {
 		const struct input *input = &reader->input[i];
 
-		status = reader->plugin.table->read_input(input->handle, decoder->y0,
-			decoder->y0 + decoder->lines, to, &cause);
+		status = input->png ? spec_png_read(input->png, first, end, reader->colours,
+					      reader->base.limits.memory, to, &cause)
+				    : reader->plugin.table->read_input(
+					      input->handle, first, end, to, &cause);
 		if (status != SPEC_OK)
 			status = spec_error_set(
 				error, status, "%s: %s", input->path, cause.message);
@@ -469,42 +626,83 @@ fetch(struct spec_decoder *decoder, struct spec_error *error)
 	return status;
 }
 
+/* Grey that was saved as red, green and blue is one band; what is coloured is none. */
+static enum spec_status
+check_grey(const struct input *input, const float *from, size_t pixels,
+	struct spec_error *error)
+{
+	size_t channels = (size_t)input->content.channels;
+
+	for (size_t x = 0; channels >= 3 && x < pixels; x++, from += channels)
+		if (from[0] != from[1] || from[0] != from[2])
+			return spec_error_set(error, SPEC_EFORMAT,
+				"%s: is coloured, and so not of one band", input->path);
+	return SPEC_OK;
+}
+
+/* One line of one channel. */
+static void
+decode_row(const struct picture_reader *reader, size_t channel, const float *from,
+	float *row, size_t width)
+{
+	const struct input *input = &reader->input[reader->from_input[channel]];
+	size_t step = (size_t)input->content.channels;
+
+	for (size_t x = 0; x < width; x++)
+		row[x] = from[x * step];
+	if (reader->colours && input->content.encoded &&
+		reader->base.image.channel[channel].name[0] != 'A') {
+		for (size_t x = 0; x < width; x++)
+			row[x] = (float)spec_srgb_decode(row[x]);
+	}
+}
+
+/* A line of all channels of an input, so few pixels at a time that they stay in the cache. */
+static void
+decode_line(const struct picture_reader *reader, size_t number, const float *from,
+	float *const *row, size_t width)
+{
+	size_t step = (size_t)reader->input[number].content.channels,
+	       run = spec_reading_run(step * sizeof *from);
+
+	for (size_t x = 0; x < width; x += run) {
+		for (size_t c = 0; c < reader->base.image.channels; c++) {
+			if (row[c] && reader->from_input[c] == number)
+				decode_row(reader, c,
+					from + x * step + reader->from_channel[c],
+					row[c] + x, width - x < run ? width - x : run);
+		}
+	}
+}
+
 static enum spec_status
 decode(struct spec_decoder *decoder, struct spec_error *error)
 {
 	const struct picture_reader *reader =
 		(const struct picture_reader *)decoder->reader;
-	const struct spec_image *image = &reader->base.image;
-	size_t width = spec_window_width(&image->data), lines = (size_t)decoder->lines;
+	size_t width = spec_window_width(&reader->base.image.data),
+	       lines = (size_t)decoder->lines;
+	const float *from = (const float *)(const void *)decoder->packed.bytes;
 	enum spec_status status = spec_reading_planes(decoder, error);
 
-	for (size_t c = 0; c < image->channels && status == SPEC_OK; c++) {
-		const float *from = (const float *)(const void *)decoder->packed.bytes;
-		size_t step = (size_t)reader->input[reader->from_input[c]].content.channels;
-		int decodes = reader->encoded && image->channel[c].name[0] != 'A';
+	for (size_t i = 0; i < reader->inputs && status == SPEC_OK; i++) {
+		const struct input *input = &reader->input[i];
+		size_t stride = width * (size_t)input->content.channels;
 
-		for (size_t i = 0; i < reader->from_input[c]; i++)
-			from += width * lines * (size_t)reader->input[i].content.channels;
-		from += reader->from_channel[c];
-		for (size_t line = 0; line < lines; line++) {
-			float *row = decoder->row[line * image->channels + c];
-
-			for (size_t x = 0; row && x < width; x++)
-				row[x] = from[(line * width + x) * step];
-			for (size_t x = 0; row && decodes && x < width; x++)
-				row[x] = (float)spec_srgb_decode(row[x]);
-		}
+		if (reader->base.source.fd < 0)
+			status = check_grey(input, from, width * lines, error);
+		for (size_t line = 0; line < lines; line++, from += stride)
+			decode_line(reader, i, from,
+				decoder->row + line * reader->base.image.channels, width);
 	}
 	return status;
 }
 
-/* OpenImageIO has files alone, and nobody waits for those to be read. */
+/* Where there is a folder nobody waits for it to be read. */
 static enum spec_status
 drain(struct spec_reader *reader, struct spec_error *error)
 {
-	(void)reader;
-	(void)error;
-	return SPEC_OK;
+	return reader->source.fd < 0 ? SPEC_OK : spec_source_drain(&reader->source, error);
 }
 
 const struct spec_reading_format spec_reading_picture = {

@@ -62,7 +62,6 @@ struct Picture {
 	OIIO::TypeDesc sample;
 	size_t stride = 0;
 	int row = 0;
-	bool outside = false; /* it goes to a file of the caller's */
 	std::unique_ptr<OIIO::ImageOutput> output;
 };
 
@@ -140,17 +139,10 @@ open_output(Picture &picture, const struct spec_pictures_request &request,
 		picture.sample);
 	if (request.colour)
 		spec.attribute("oiio:ColorSpace", request.colour);
-	if (request.description)
-		spec.attribute("ImageDescription", request.description);
 	/* Its Exif directory fails, and with it the whole file. Other formats ignore this. */
 	spec.attribute("tiff:write_exif", 0);
 	std::string name = std::string("picture.") + request.suffix;
-	if (request.path) {
-		/* No compression: deflate on one thread would be all the time it takes. */
-		spec.attribute("compression", "none");
-		name = request.path;
-		picture.outside = true;
-	} else if (format.to_memory && picture.output->supports("ioproxy")) {
+	if (format.to_memory && picture.output->supports("ioproxy")) {
 		picture.output->set_ioproxy(&picture.memory);
 	} else {
 		name = picture.file = picture.folder.make(request.suffix);
@@ -260,8 +252,6 @@ finish_picture(
 		if (picture.output->has_error())
 			return fail(error, SPEC_EIO, picture.output->geterror());
 		picture.output.reset();
-		if (picture.outside)
-			return SPEC_OK;
 		if (!picture.file.empty())
 			status = read_back(picture, error);
 		if (status == SPEC_OK && picture.bytes.empty())

@@ -11,7 +11,7 @@
 #include "base/error.h"
 
 /* To be raised with every change below, and of struct spec_error. */
-#define SPEC_PICTURES_VERSION 2
+#define SPEC_PICTURES_VERSION 3
 
 /* The only symbol: a constant struct spec_pictures. */
 #define SPEC_PICTURES_SYMBOL "spec_pictures"
@@ -20,10 +20,8 @@ struct spec_pictures_request {
 	const char *suffix; /* without the dot */
 	size_t width, height;
 	size_t channels;
-	int bits;                /* 8, 16: integers; 32: floats */
-	const char *colour;      /* OpenImageIO's name of the colour space, or null */
-	const char *description; /* goes into the file, or null */
-	const char *path;        /* written as it grows, or null: into memory */
+	int bits;           /* 8, 16: integers; 32: floats */
+	const char *colour; /* OpenImageIO's name of the colour space, or null */
 };
 
 /* What a file that is read holds. */
@@ -55,8 +53,7 @@ struct spec_pictures {
 		void *picture, const void *rows, size_t count, struct spec_error *error);
 
 	/*
-	 * Ends the picture. The encoded file is the picture's, until close; none where it
-	 * was written to a path.
+	 * Ends the picture. The encoded file is the picture's, until close.
 	 */
 	enum spec_status (*finish)(void *picture, const unsigned char **bytes, size_t *size,
 		struct spec_error *error);

@@ -83,12 +83,24 @@ enum spec_status spec_reading_add_picture(
 	struct spec_reader *reader, const char *path, struct spec_error *error);
 
 /* Bytes of the beginning of a file that a format is recognised by. */
-#define SPEC_READING_FIRST_BYTES 64
+#define SPEC_READING_FIRST_BYTES 1024
 
 static inline size_t
 spec_reading_align(size_t size)
 {
 	return (size + 63) / 64 * 64; /* a cache line, and the widest vector */
+}
+
+/*
+ * How many pixels of so many bytes, band beside band, to take apart at a time, so that they
+ * stay in half of a first-level cache until all their bands are taken.
+ */
+static inline size_t
+spec_reading_run(size_t pixel_bytes)
+{
+	size_t run = 16384 / pixel_bytes;
+
+	return run < 8 ? 8 : run;
 }
 
 /* Grows a buffer to at least size bytes, keeping the first kept ones. */

@@ -27,6 +27,8 @@ spec_image_save(const struct spec_image *image, struct spec_stream *stream,
 		spec_writer_choose(settings->output, settings->format, &format, error);
 
 	*overflows = 0;
+	if (status == SPEC_OK)
+		status = spec_writer_check_settings(format, settings, error);
 	if (status == SPEC_OK && !spec_writer_makes_files(format)) {
 		status = spec_output_open(&output, settings->output, error);
 		opened = status == SPEC_OK;

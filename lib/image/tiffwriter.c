@@ -1,7 +1,8 @@
 /*
- * Writing bands as pictures of floats through OpenImageIO: a TIFF file of many channels, or
- * a folder of TIFF files, each of one band and named by its wavelength, as 550nm.tif.
+ * Writing bands as TIFF files of floats: one of many channels, or a folder of files, each of
+ * one band and named by its wavelength, as 550nm.tif. They are written forward alone.
  */
+#include <dirent.h>
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -12,102 +13,52 @@
 #include "base/memory.h"
 #include "base/output.h"
 #include "image/description.h"
-#include "image/plugin.h"
+#include "image/tiffheader.h"
 #include "image/writing.h"
 #include "spectrum/spd.h"
 
-/* One TIFF file. */
-struct file {
-	struct spec_output output; /* of a folder's files */
-	int opened;
-	void *picture;
-};
-
-struct tiff_writer {
+struct folder_writer {
 	struct spec_writer base;
-	struct spec_plugin plugin;
-	struct file *file;
-	size_t files;
-	int scratch_fd; /* what a pipe gets at the end, or -1 */
+	struct spec_output *file;
+	size_t files, opened;
 	int made_folder;
 };
 
 struct tiff_packer {
 	struct spec_packer base;
-	float *line; /* [bands][width], or interleaved */
+	float *samples; /* of a chunk, in the files' order */
 };
 
+/* What stands before the samples: of all bands, or of one. */
 static enum spec_status
-report(struct spec_error *error, const struct spec_error *cause, const char *path)
+write_header(const struct spec_image *image, struct spec_output *output, int has_band,
+	size_t band, struct spec_error *error)
 {
-	return spec_error_set(
-		error, cause->status, "unable to write '%s': %s", path, cause->message);
-}
+	struct spec_text description = {0}, header = {0};
+	struct spec_tiff_layout layout = {.width = spec_window_width(&image->data),
+		.height = spec_window_height(&image->data),
+		.channels = has_band ? 1 : image->bands};
+	enum spec_status status = spec_text_open(&description, error);
 
-/* Opens a TIFF on a descriptor, by its name in /proc: the file itself may have none. */
-static enum spec_status
-open_file(struct tiff_writer *writer, struct file *file, int fd, size_t channels,
-	const char *description, struct spec_error *error)
-{
-	const struct spec_window *data = &writer->base.image->data;
-	struct spec_error cause = {0};
-	char path[64];
-	struct spec_pictures_request request = {.suffix = "tif",
-		.width = spec_window_width(data),
-		.height = spec_window_height(data),
-		.channels = channels,
-		.bits = 32,
-		.colour = "Linear",
-		.description = description,
-		.path = path};
-
-	snprintf(path, sizeof path, "/proc/self/fd/%d", fd);
-	return writer->plugin.table->open(&file->picture, &request, &cause) == SPEC_OK
-		       ? SPEC_OK
-		       : report(error, &cause, writer->base.path);
-}
-
-/* ---- one file ---- */
-
-static enum spec_status
-prepare(struct tiff_writer *writer, size_t files, struct spec_text *description,
-	struct spec_error *error)
-{
-	enum spec_status status = spec_writing_only_bands(&writer->base, "TIFF", error);
-
-	writer->scratch_fd = -1;
-	if (status != SPEC_OK)
-		return status;
-	writer->file = spec_memory_new(files, sizeof *writer->file, "files", error);
-	if (!writer->file)
-		return SPEC_ENOMEM;
-	writer->files = files;
-	status = spec_plugin_load(&writer->plugin, error);
 	if (status == SPEC_OK)
-		status = spec_text_open(description, error);
-	if (status != SPEC_OK)
-		return status;
-	status = spec_description_write(writer->base.image, description, error);
-	fputc('\0', description->stream);
-	return status == SPEC_OK ? spec_text_close(description, error) : status;
-}
-
-static enum spec_status
-open_tiff(struct spec_writer *base, struct spec_error *error)
-{
-	struct tiff_writer *writer = (struct tiff_writer *)base;
-	struct spec_text description = {0};
-	enum spec_status status = prepare(writer, 1, &description, error);
-
-	if (status == SPEC_OK && base->output->terminal)
-		status = spec_error_set(error, SPEC_EUSAGE,
-			"refusing to write an image to a terminal; use -o FILE or a pipe");
-	if (status == SPEC_OK && !base->output->seekable)
-		status = spec_output_scratch(&writer->scratch_fd, error);
+		status = has_band ? spec_description_write_band(
+					    image, band, &description, error)
+				  : spec_description_write(image, &description, error);
+	if (status == SPEC_OK) {
+		fputc('\0', description.stream);
+		status = spec_text_close(&description, error);
+	}
+	layout.description = description.bytes;
+	layout.description_bytes = description.size;
 	if (status == SPEC_OK)
-		status = open_file(writer, &writer->file[0],
-			writer->scratch_fd >= 0 ? writer->scratch_fd : base->output->fd,
-			base->image->bands, description.bytes, error);
+		status = spec_text_open(&header, error);
+	if (status == SPEC_OK)
+		status = spec_tiff_header(&layout, &header, error);
+	if (status == SPEC_OK)
+		status = spec_text_close(&header, error);
+	if (status == SPEC_OK)
+		status = spec_output_write(output, header.bytes, header.size, error);
+	spec_text_free(&header);
 	spec_text_free(&description);
 	return status;
 }
@@ -118,183 +69,225 @@ open_packer(struct spec_packer *base, struct spec_error *error)
 	struct tiff_packer *packer = (struct tiff_packer *)base;
 	const struct spec_image *image = base->writer->image;
 
-	packer->line = spec_memory_aligned(spec_window_width(&image->data) * image->bands,
-		sizeof(float), "samples", error);
-	return packer->line ? SPEC_OK : SPEC_ENOMEM;
+	packer->samples =
+		spec_memory_aligned(spec_window_width(&image->data) * image->bands *
+					    (size_t)base->writer->chunk_lines,
+			sizeof(float), "samples", error);
+	return packer->samples ? SPEC_OK : SPEC_ENOMEM;
 }
 
 static void
 close_packer(struct spec_packer *packer)
 {
-	free(((struct tiff_packer *)packer)->line);
+	free(((struct tiff_packer *)packer)->samples);
 }
 
-/* Band by band for a folder, pixel by pixel for one file. */
+/* ---- one file ---- */
+
+static enum spec_status
+open_tiff(struct spec_writer *writer, struct spec_error *error)
+{
+	enum spec_status status = spec_writing_only_bands(writer, "TIFF", error);
+
+	if (status == SPEC_OK && writer->output->terminal)
+		status = spec_error_set(error, SPEC_EUSAGE,
+			"refusing to write an image to a terminal; use -o FILE or a pipe");
+	return status == SPEC_OK ? write_header(writer->image, writer->output, 0, 0, error)
+				 : status;
+}
+
 static enum spec_status
 encode(struct spec_packer *base, int index, unsigned char *raw, struct spec_error *error)
 {
 	struct tiff_packer *packer = (struct tiff_packer *)base;
-	const struct tiff_writer *writer = (const struct tiff_writer *)base->writer;
-	const struct spec_image *image = base->writer->image;
-	size_t width = spec_window_width(&image->data), bands = image->bands;
 
 	(void)index;
-	(void)raw;
 	(void)error;
-	for (size_t band = 0; band < bands; band++) {
-		const float *from = base->plane[image->band_channel[band]];
-
-		if (writer->base.format->makes_files)
-			memcpy(packer->line + band * width, from, width * sizeof *from);
-		else
-			for (size_t x = 0; x < width; x++)
-				packer->line[x * bands + band] = from[x];
-	}
-	base->chunk = packer->line;
+	base->chunk = packer->samples; /* of as many bytes */
+	spec_writing_by_pixel(base->writer, raw, packer->samples);
 	return SPEC_OK;
-}
-
-static enum spec_status
-write_line(struct spec_packer *packer, int index, struct spec_error *error)
-{
-	struct tiff_writer *writer = (struct tiff_writer *)packer->writer;
-	size_t width = spec_window_width(&writer->base.image->data);
-	const float *line = packer->chunk;
-
-	(void)index;
-	for (size_t i = 0; i < writer->files; i++) {
-		struct spec_error cause = {0};
-
-		if (writer->plugin.table->write(writer->file[i].picture, line + i * width,
-			    1, &cause) != SPEC_OK)
-			return report(error, &cause, writer->base.path);
-	}
-	return SPEC_OK;
-}
-
-static enum spec_status
-finish(struct spec_writer *base, struct spec_error *error)
-{
-	struct tiff_writer *writer = (struct tiff_writer *)base;
-
-	for (size_t i = 0; i < writer->files; i++) {
-		struct spec_error cause = {0};
-		const unsigned char *bytes;
-		size_t size;
-
-		if (writer->plugin.table->finish(
-			    writer->file[i].picture, &bytes, &size, &cause) != SPEC_OK)
-			return report(error, &cause, base->path);
-	}
-	return writer->scratch_fd >= 0
-		       ? spec_output_append(base->output, writer->scratch_fd, error)
-		       : SPEC_OK;
-}
-
-static void
-close_writer(struct spec_writer *base)
-{
-	struct tiff_writer *writer = (struct tiff_writer *)base;
-
-	for (size_t i = 0; i < writer->files; i++) {
-		if (writer->file[i].picture)
-			writer->plugin.table->close(writer->file[i].picture);
-		if (writer->file[i].opened)
-			spec_output_abandon(&writer->file[i].output);
-	}
-	free(writer->file);
-	if (writer->scratch_fd >= 0)
-		close(writer->scratch_fd);
-	if (writer->made_folder)
-		(void)rmdir(base->path); /* it is empty where nothing was committed */
-	spec_plugin_unload(&writer->plugin);
 }
 
 const struct spec_writing_format spec_writing_tiff = {
 	.name = "tiff",
 	.suffixes = ".tif .tiff",
-	.writer_bytes = sizeof(struct tiff_writer),
+	.writer_bytes = sizeof(struct spec_writer),
 	.packer_bytes = sizeof(struct tiff_packer),
+	.own_samples = 1,
 	.open = open_tiff,
 	.open_packer = open_packer,
 	.encode = encode,
-	.write = write_line,
-	.finish = finish,
+	.write = spec_writing_append,
 	.close_packer = close_packer,
-	.close = close_writer,
 };
 
 /* ---- a folder ---- */
 
 static enum spec_status
-open_band(struct tiff_writer *writer, size_t band, const char *description,
+name_band(char *name, size_t room, const struct spec_writer *writer, size_t band,
 	struct spec_error *error)
 {
-	struct file *file = &writer->file[band];
-	char number[SPEC_SPD_NUMBER], path[4096];
-	enum spec_status status;
+	char number[SPEC_SPD_NUMBER];
 
-	spec_spd_format_number(writer->base.image->wavelength_nm[band], number);
-	if (snprintf(path, sizeof path, "%s/%snm.tif", writer->base.path, number) >=
-		(int)sizeof path)
+	spec_spd_format_number(writer->image->wavelength_nm[band], number);
+	return snprintf(name, room, "%snm.tif", number) < (int)room
+		       ? SPEC_OK
+		       : spec_error_set(error, SPEC_EUSAGE, "%s: is too long a name",
+				 writer->path);
+}
+
+static enum spec_status
+open_band(struct folder_writer *writer, size_t band, struct spec_error *error)
+{
+	const struct spec_writer *base = &writer->base;
+	char name[64], path[4096];
+	enum spec_status status = name_band(name, sizeof name, base, band, error);
+
+	if (status == SPEC_OK &&
+		snprintf(path, sizeof path, "%s/%s", base->path, name) >= (int)sizeof path)
 		return spec_error_set(
-			error, SPEC_EUSAGE, "%s: is too long a name", writer->base.path);
-	status = spec_output_open(&file->output, path, error);
-	file->opened = status == SPEC_OK;
-	return status == SPEC_OK
-		       ? open_file(writer, file, file->output.fd, 1, description, error)
-		       : status;
+			error, SPEC_EUSAGE, "%s: is too long a name", base->path);
+	if (status == SPEC_OK)
+		status = spec_output_open(&writer->file[band], path, error);
+	if (status != SPEC_OK)
+		return status;
+	writer->opened++;
+	return write_header(base->image, &writer->file[band], 1, band, error);
+}
+
+static int
+is_band(const struct spec_writer *writer, const char *found)
+{
+	char name[64];
+
+	for (size_t i = 0; i < writer->image->bands; i++)
+		if (name_band(name, sizeof name, writer, i, NULL) == SPEC_OK &&
+			strcmp(name, found) == 0)
+			return 1;
+	return 0;
+}
+
+/* A folder may hold an older image of the same bands: others would be read as this one's. */
+static enum spec_status
+check_folder(const struct spec_writer *writer, struct spec_error *error)
+{
+	DIR *folder = opendir(writer->path);
+	enum spec_status status = SPEC_OK;
+	struct dirent *entry;
+
+	if (!folder)
+		return spec_error_system(
+			error, errno, "unable to write the folder '%s'", writer->path);
+	while (status == SPEC_OK && (entry = readdir(folder))) {
+		if (*entry->d_name != '.' && !is_band(writer, entry->d_name))
+			status = spec_error_set(error, SPEC_EUSAGE,
+				"%s: has '%.200s' in it, which is no band of this image",
+				writer->path, entry->d_name);
+	}
+	closedir(folder);
+	return status;
 }
 
 static enum spec_status
 open_folder(struct spec_writer *base, struct spec_error *error)
 {
-	struct tiff_writer *writer = (struct tiff_writer *)base;
-	struct spec_text description = {0};
-	enum spec_status status = prepare(writer, base->image->bands, &description, error);
+	struct folder_writer *writer = (struct folder_writer *)base;
+	enum spec_status status = SPEC_OK;
 
-	if (status == SPEC_OK && strcmp(base->path, "-") == 0)
+	if (strcmp(base->path, "-") == 0)
 		status = spec_error_set(error, SPEC_EUSAGE,
 			"a folder of pictures cannot go to standard output (-o FOLDER)");
-	if (status == SPEC_OK && mkdir(base->path, 0777) == 0)
+	if (status == SPEC_OK)
+		status = spec_writing_only_bands(base, "TIFF", error);
+	if (status != SPEC_OK)
+		return status;
+	writer->files = base->image->bands;
+	writer->file = spec_memory_new(writer->files, sizeof *writer->file, "files", error);
+	if (!writer->file)
+		return SPEC_ENOMEM;
+	if (mkdir(base->path, 0777) == 0)
 		writer->made_folder = 1;
-	else if (status == SPEC_OK && errno != EEXIST)
-		status = spec_error_system(
+	else if (errno != EEXIST)
+		return spec_error_system(
 			error, errno, "unable to make the folder '%s'", base->path);
+	else
+		status = check_folder(base, error);
 	for (size_t i = 0; i < writer->files && status == SPEC_OK; i++)
-		status = open_band(writer, i, description.bytes, error);
-	spec_text_free(&description);
+		status = open_band(writer, i, error);
+	base->chunk_lines = spec_writing_plane_lines(base);
 	return status;
 }
 
 static enum spec_status
-commit_folder(struct spec_writer *base, struct spec_error *error)
+encode_bands(
+	struct spec_packer *base, int index, unsigned char *raw, struct spec_error *error)
 {
-	struct tiff_writer *writer = (struct tiff_writer *)base;
+	struct tiff_packer *packer = (struct tiff_packer *)base;
+
+	(void)error;
+	base->chunk = packer->samples;
+	spec_writing_by_band(base->writer, index, raw, packer->samples);
+	return SPEC_OK;
+}
+
+static enum spec_status
+write_bands(struct spec_packer *packer, int index, struct spec_error *error)
+{
+	struct folder_writer *writer = (struct folder_writer *)packer->writer;
+	size_t bytes = spec_window_width(&writer->base.image->data) * sizeof(float) *
+		       (size_t)spec_writing_lines(&writer->base, index);
 	enum spec_status status = SPEC_OK;
 
-	for (size_t i = 0; i < writer->files && status == SPEC_OK; i++) {
-		writer->plugin.table->close(writer->file[i].picture);
-		writer->file[i].picture = NULL;
-		writer->file[i].opened = 0;
-		status = spec_output_commit(&writer->file[i].output, error);
-	}
+	for (size_t i = 0; i < writer->files && status == SPEC_OK; i++)
+		status = spec_output_write(&writer->file[i],
+			(const char *)packer->chunk + i * bytes, bytes, error);
+	return status;
+}
+
+/* All or none. */
+static enum spec_status
+commit_folder(struct spec_writer *base, struct spec_error *error)
+{
+	struct folder_writer *writer = (struct folder_writer *)base;
+	struct spec_output **output = spec_memory_new(
+		writer->files, sizeof(struct spec_output *), "files", error);
+	enum spec_status status;
+
+	if (!output)
+		return SPEC_ENOMEM;
+	for (size_t i = 0; i < writer->files; i++)
+		output[i] = &writer->file[i];
+	writer->opened = 0;
+	status = spec_output_commit_all(output, writer->files, error);
+	free((void *)output);
 	writer->made_folder &= status != SPEC_OK;
 	return status;
+}
+
+static void
+close_folder(struct spec_writer *base)
+{
+	struct folder_writer *writer = (struct folder_writer *)base;
+
+	for (size_t i = 0; i < writer->opened; i++)
+		spec_output_abandon(&writer->file[i]);
+	free(writer->file);
+	if (writer->made_folder)
+		(void)rmdir(base->path); /* it is empty where nothing was committed */
 }
 
 const struct spec_writing_format spec_writing_folder = {
 	.name = "bands",
 	.suffixes = "",
-	.writer_bytes = sizeof(struct tiff_writer),
+	.writer_bytes = sizeof(struct folder_writer),
 	.packer_bytes = sizeof(struct tiff_packer),
 	.makes_files = 1,
+	.own_samples = 1,
 	.open = open_folder,
 	.open_packer = open_packer,
-	.encode = encode,
-	.write = write_line,
-	.finish = finish,
+	.encode = encode_bands,
+	.write = write_bands,
 	.commit = commit_folder,
 	.close_packer = close_packer,
-	.close = close_writer,
+	.close = close_folder,
 };

@@ -13,6 +13,10 @@
 static const struct spec_writing_format *const formats[] = {&spec_writing_exr,
 	&spec_writing_envi, &spec_writing_hsr, &spec_writing_tiff, &spec_writing_folder};
 
+/* Of a chunk of several lines: one band's bytes, and all bands' at most. */
+#define BAND_BYTES (1 << 17)
+#define CHUNK_BYTES (1 << 24)
+
 #define FORMATS (sizeof formats / sizeof *formats)
 
 /* ---- what formats use ---- */
@@ -53,8 +57,59 @@ spec_writing_only_bands(
 			return spec_error_set(error, SPEC_EUNSUPPORTED,
 				"%s: %s has no place for channel '%s' (--bands-only)",
 				writer->path, format, image->channel[i].name);
+		if (image->channel[i].sample == SPEC_SAMPLE_UINT)
+			return spec_error_set(error, SPEC_EUNSUPPORTED,
+				"%s: %s has no place for whole numbers, which '%s' has",
+				writer->path, format, image->channel[i].name);
 	}
 	return SPEC_OK;
+}
+
+/* So few pixels at a time that what is written stays in half of a first-level cache. */
+void
+spec_writing_by_pixel(const struct spec_writer *writer, const unsigned char *raw, float *to)
+{
+	const struct spec_image *image = writer->image;
+	size_t width = spec_window_width(&image->data), bands = image->bands,
+	       run = 4096 / bands < 8 ? 8 : 4096 / bands;
+
+	for (size_t first = 0; first < width; first += run) {
+		size_t end = first + run < width ? first + run : width;
+
+		for (size_t band = 0; band < bands; band++) {
+			const float *from = (const float *)(const void
+					*)(raw + writer->offset[image->band_channel[band]]);
+
+			for (size_t x = first; x < end; x++)
+				to[x * bands + band] = from[x];
+		}
+	}
+}
+
+void
+spec_writing_by_band(
+	const struct spec_writer *writer, int index, const unsigned char *raw, float *to)
+{
+	const struct spec_image *image = writer->image;
+	size_t width = spec_window_width(&image->data),
+	       lines = (size_t)spec_writing_lines(writer, index);
+
+	for (size_t i = 0; i < image->bands * lines; i++, to += width)
+		memcpy(to,
+			raw + i % lines * writer->line_bytes +
+				writer->offset[image->band_channel[i / lines]],
+			width * sizeof *to);
+}
+
+int
+spec_writing_plane_lines(const struct spec_writer *writer)
+{
+	size_t row = spec_window_width(&writer->image->data) * sizeof(float),
+	       lines = BAND_BYTES / row, most = CHUNK_BYTES / writer->line_bytes;
+
+	if (lines > most)
+		lines = most;
+	return lines < 1 ? 1 : (int)lines;
 }
 
 /* ---- the choice of a format ---- */
@@ -113,6 +168,21 @@ find_format(const char *name, const struct spec_writing_format **format,
 	return spec_error_set(error, SPEC_EUSAGE, "unknown format '%s' (%s)", name, known);
 }
 
+static const struct spec_writing_format *
+find_suffix(const char *suffix)
+{
+	for (size_t i = 0; i < FORMATS; i++)
+		if (is_listed(formats[i]->suffixes, suffix))
+			return formats[i];
+	return NULL;
+}
+
+int
+spec_writer_knows_suffix(const char *suffix)
+{
+	return find_suffix(suffix) != NULL;
+}
+
 enum spec_status
 spec_writer_choose(const char *path, const char *name,
 	const struct spec_writing_format **format, struct spec_error *error)
@@ -123,17 +193,28 @@ spec_writer_choose(const char *path, const char *name,
 	*format = formats[0];
 	if (name)
 		return find_format(name, format, error);
-	if (strcmp(path, "-") == 0 || strncmp(path, "/dev/", 5) == 0 || !*suffix)
+	if (strcmp(path, "-") == 0 || !*suffix)
 		return SPEC_OK;
-	for (size_t i = 0; i < FORMATS; i++) {
-		if (is_listed(formats[i]->suffixes, suffix)) {
-			*format = formats[i];
-			return SPEC_OK;
-		}
+	if (find_suffix(suffix)) {
+		*format = find_suffix(suffix);
+		return SPEC_OK;
 	}
+	if (strncmp(path, "/dev/", 5) == 0)
+		return SPEC_OK; /* a device's name is not a file's */
 	list_known(known, 1);
 	return spec_error_set(error, SPEC_EUSAGE,
 		"unable to write '%s': no image format for '%s' (%s)", path, suffix, known);
+}
+
+enum spec_status
+spec_writer_check_settings(const struct spec_writing_format *format,
+	const struct spec_settings *settings, struct spec_error *error)
+{
+	if (!format->own_samples || (!settings->half && settings->compression < 0))
+		return SPEC_OK;
+	return spec_error_set(error, SPEC_EUSAGE, "%s: %s is for OpenEXR alone, not for %s",
+		settings->output, settings->half ? "--half" : "--compression",
+		format->name);
 }
 
 int
@@ -156,7 +237,9 @@ measure_lines(struct spec_writer *writer, struct spec_error *error)
 		return SPEC_ENOMEM;
 	writer->direct = 1;
 	for (size_t i = 0; i < image->channels; i++) {
-		size_t bytes = spec_exr_sample_bytes(image->channel[i].sample);
+		size_t bytes = writer->format->own_samples
+				       ? sizeof(float)
+				       : spec_exr_sample_bytes(image->channel[i].sample);
 
 		if (i > 0 &&
 			strcmp(image->channel[i - 1].name, image->channel[i].name) >= 0)

@@ -17,11 +17,18 @@ struct spec_writing_format;
 
 /*
  * The format to write to path ("-": standard output): that of name, or, where name is
- * null, that of the suffix of path; OpenEXR where there is none. Errors (SPEC_EUSAGE): no
- * format of that name or suffix.
+ * null, that of the suffix of path; OpenEXR where there is none, or below /dev another one.
+ * Errors (SPEC_EUSAGE): no format of that name or suffix.
  */
 enum spec_status spec_writer_choose(const char *path, const char *name,
 	const struct spec_writing_format **format, struct spec_error *error);
+
+/* Whether a suffix with its dot, such as ".hdr", is one of a format's. */
+int spec_writer_knows_suffix(const char *suffix);
+
+/* SPEC_EUSAGE: the settings ask for what the format does not have: HALF, a compression. */
+enum spec_status spec_writer_check_settings(const struct spec_writing_format *format,
+	const struct spec_settings *settings, struct spec_error *error);
 
 /* Whether the format makes its files itself, so that no output is to be opened for it. */
 int spec_writer_makes_files(const struct spec_writing_format *format);

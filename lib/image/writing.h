@@ -53,6 +53,7 @@ struct spec_writing_format {
 	const char *suffixes;              /* of -o, with their dots, blanks between */
 	size_t writer_bytes, packer_bytes; /* of the format's own structs */
 	int makes_files; /* the files are the format's own matter: writer->output is null */
+	int own_samples; /* it stores bands in its own way: lines come as floats, never HALF */
 
 	/* Refuses what the format cannot hold, and writes what comes before the lines. */
 	enum spec_status (*open)(struct spec_writer *writer, struct spec_error *error);
@@ -97,6 +98,19 @@ spec_writing_first_line(const struct spec_writer *writer, int index)
  */
 enum spec_status spec_writing_only_bands(
 	const struct spec_writer *writer, const char *format, struct spec_error *error);
+
+/*
+ * The bands of a chunk, of a format with own_samples, by wavelength, channels lying in the
+ * order of their names. Of one line, pixel by pixel: to[x * bands + band]; or band by band,
+ * each with its lines: to[(band * lines + line) * width + x]. raw: as encode gets it.
+ */
+void spec_writing_by_pixel(
+	const struct spec_writer *writer, const unsigned char *raw, float *to);
+void spec_writing_by_band(
+	const struct spec_writer *writer, int index, const unsigned char *raw, float *to);
+
+/* Lines of a chunk where each band's go to another place: so many that it is worth a call. */
+int spec_writing_plane_lines(const struct spec_writer *writer);
 
 /* A format's write where chunks simply follow each other in the output. */
 enum spec_status spec_writing_append(

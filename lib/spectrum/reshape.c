@@ -213,6 +213,22 @@ replace_curve(struct spec_curve *curve, struct spec_curve *next)
 	*curve = *next;
 }
 
+static enum spec_status
+settle_quantity(const char *name, const char *quantity, struct spec_curve *curve,
+	struct spec_error *error)
+{
+	struct spec_curve said = {.quantity = (char *)quantity};
+
+	if (!quantity)
+		return SPEC_OK;
+	if (!*curve->quantity)
+		return spec_curve_set_text(&curve->quantity, quantity, error);
+	if (spec_curve_is_ratio(curve) == spec_curve_is_ratio(&said))
+		return SPEC_OK;
+	return spec_error_set(error, SPEC_EUSAGE, "'%s' says itself that it is %s", name,
+		curve->quantity);
+}
+
 /* Its wavelengths over nm, in the medium that is asked for. */
 static enum spec_status
 settle_wavelengths(const char *name, const struct spec_reshape *reshape,
@@ -267,9 +283,10 @@ shape(const char *name, const struct spec_reshape *reshape, enum spec_interpolat
 	struct spec_curve *curve, struct spec_reshape_notes *notes,
 	struct spec_error *error)
 {
-	enum spec_status status =
-		settle_wavelengths(name, reshape, curve, &notes->left, error);
+	enum spec_status status = settle_quantity(name, reshape->quantity, curve, error);
 
+	if (status == SPEC_OK)
+		status = settle_wavelengths(name, reshape, curve, &notes->left, error);
 	if (status == SPEC_OK && reshape->grid)
 		spec_curve_describe_outside(curve, reshape->grid, reshape->edges_nm,
 			reshape->rebin, notes->outside, sizeof notes->outside);

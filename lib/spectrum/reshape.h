@@ -11,6 +11,7 @@
 #include "spectrum/represent.h"
 
 struct spec_reshape {
+	const char *quantity;        /* of curves that state none; or null */
 	enum spec_abscissa abscissa; /* what the files are tabulated over */
 	enum spec_medium medium; /* wavelengths become those in it; unknown: they stay */
 	const struct spec_grid *grid; /* then at these wavelengths; null: as they are */
@@ -33,7 +34,8 @@ struct spec_reshape_notes {
  * The curve of that name, as spec_lookup_curve finds it, or "-" for standard input, with all
  * its columns, after all that is asked for. Errors: those of spec_spd_read,
  * spec_abscissa_convert, spec_air_convert, spec_curve_rebin, spec_curve_sample,
- * spec_operation_apply and spec_spectrum_combine, SPEC_ERANGE where Sprague's rule has no
+ * spec_operation_apply and spec_spectrum_combine, SPEC_EUSAGE where a curve is light and
+ * quantity is not, or the other way round, SPEC_ERANGE where Sprague's rule has no
  * equal steps. Then curve is empty.
  */
 enum spec_status spec_reshape_curve(const char *name, const struct spec_reshape *reshape,

@@ -222,6 +222,15 @@ check_numbers(const struct spec_curve *curve, struct spec_error *error)
 	return SPEC_OK;
 }
 
+static void
+write_columns(FILE *file, const struct spec_curve *curve, char separator)
+{
+	fputs(FIRST_COLUMN, file);
+	for (size_t i = 0; i < curve->columns; i++)
+		fprintf(file, "%c%s", separator, curve->column[i]);
+	fputc('\n', file);
+}
+
 void
 spec_spd_write_texts(FILE *file, const struct spec_curve *curve)
 {
@@ -250,38 +259,68 @@ write_header(FILE *file, const struct spec_curve *curve, enum spec_spectrum_kind
 {
 	spec_spd_write_texts(file, curve);
 	spec_spd_write_rule(file, kind, interpolate);
-	fputs("# columns: " FIRST_COLUMN, file);
-	for (size_t i = 0; i < curve->columns; i++)
-		fprintf(file, " %s", curve->column[i]);
-	fputc('\n', file);
+	fputs("# columns: ", file);
+	write_columns(file, curve, ' ');
+}
+
+static void
+write_rows(FILE *file, const struct spec_curve *curve, char separator)
+{
+	char text[SPEC_SPD_NUMBER];
+
+	for (size_t i = 0; i < curve->count && !ferror(file); i++) {
+		spec_spd_format_number(curve->wavelength_nm[i], text);
+		fputs(text, file);
+		for (size_t j = 0; j < curve->columns; j++) {
+			spec_spd_format_number(curve->value[j * curve->count + i], text);
+			fprintf(file, "%c%s", separator, text);
+		}
+		fputc('\n', file);
+	}
+}
+
+static enum spec_status
+check_curve(const struct spec_curve *curve, struct spec_error *error)
+{
+	enum spec_status status = spec_spd_check_texts(curve, error);
+
+	return status == SPEC_OK ? check_numbers(curve, error) : status;
+}
+
+static enum spec_status
+finish(FILE *file, struct spec_error *error)
+{
+	return fflush(file) == 0 && !ferror(file)
+		       ? SPEC_OK
+		       : spec_error_system(error, errno ? errno : EIO,
+				 "unable to write the spectrum");
 }
 
 static enum spec_status
 write_as(FILE *file, const struct spec_curve *curve, enum spec_spectrum_kind kind,
 	enum spec_interpolate interpolate, struct spec_error *error)
 {
-	enum spec_status status = spec_spd_check_texts(curve, error);
-	char text[SPEC_SPD_NUMBER];
+	enum spec_status status = check_curve(curve, error);
 
-	if (status == SPEC_OK)
-		status = check_numbers(curve, error);
 	if (status != SPEC_OK)
 		return status;
 	errno = 0;
 	write_header(file, curve, kind, interpolate);
-	for (size_t i = 0; i < curve->count && !ferror(file); i++) {
-		spec_spd_format_number(curve->wavelength_nm[i], text);
-		fputs(text, file);
-		for (size_t j = 0; j < curve->columns; j++) {
-			spec_spd_format_number(curve->value[j * curve->count + i], text);
-			fprintf(file, " %s", text);
-		}
-		fputc('\n', file);
-	}
-	if (fflush(file) != 0 || ferror(file))
-		return spec_error_system(
-			error, errno ? errno : EIO, "unable to write the spectrum");
-	return SPEC_OK;
+	write_rows(file, curve, ' ');
+	return finish(file, error);
+}
+
+static enum spec_status
+write_csv(FILE *file, const struct spec_curve *curve, struct spec_error *error)
+{
+	enum spec_status status = check_curve(curve, error);
+
+	if (status != SPEC_OK)
+		return status;
+	errno = 0;
+	write_columns(file, curve, ',');
+	write_rows(file, curve, ',');
+	return finish(file, error);
 }
 
 enum spec_status
@@ -291,11 +330,17 @@ spec_spd_write(FILE *file, const struct spec_curve *curve, struct spec_error *er
 		file, curve, SPEC_SPECTRUM_TABULATED, SPEC_INTERPOLATE_LINEAR, error);
 }
 
-enum spec_status
-spec_spd_save(const char *path, const struct spec_curve *curve, struct spec_error *error)
+/* Saves what was written to a text, unless that failed, and frees it. */
+static enum spec_status
+save_text(const char *path, struct spec_text *text, enum spec_status status,
+	struct spec_error *error)
 {
-	return spec_spd_save_as(
-		path, curve, SPEC_SPECTRUM_TABULATED, SPEC_INTERPOLATE_LINEAR, error);
+	if (status == SPEC_OK)
+		status = spec_text_close(text, error);
+	if (status == SPEC_OK)
+		status = spec_output_save(path, text->bytes, text->size, error);
+	spec_text_free(text);
+	return status;
 }
 
 enum spec_status
@@ -308,11 +353,25 @@ spec_spd_save_as(const char *path, const struct spec_curve *curve,
 
 	if (status != SPEC_OK)
 		return status;
-	status = write_as(text.stream, curve, kind, interpolate, error);
-	if (status == SPEC_OK)
-		status = spec_text_close(&text, error);
-	if (status == SPEC_OK)
-		status = spec_output_save(path, text.bytes, text.size, error);
-	spec_text_free(&text);
-	return status;
+	return save_text(
+		path, &text, write_as(text.stream, curve, kind, interpolate, error), error);
+}
+
+enum spec_status
+spec_spd_save(const char *path, const struct spec_curve *curve, struct spec_error *error)
+{
+	return spec_spd_save_as(
+		path, curve, SPEC_SPECTRUM_TABULATED, SPEC_INTERPOLATE_LINEAR, error);
+}
+
+enum spec_status
+spec_spd_save_csv(
+	const char *path, const struct spec_curve *curve, struct spec_error *error)
+{
+	struct spec_text text;
+	enum spec_status status = spec_text_open(&text, error);
+
+	if (status != SPEC_OK)
+		return status;
+	return save_text(path, &text, write_csv(text.stream, curve, error), error);
 }

@@ -8,7 +8,7 @@
 #include "base/error.h"
 #include "spectrum/curve.h"
 
-#define SPEC_SPD_LONGEST_LINE 65536 /* bytes, the line break not counted */
+#define SPEC_SPD_LONGEST_LINE 262144 /* bytes, the line break not counted */
 #define SPEC_SPD_MOST_ROWS 1000000
 
 /*
@@ -38,6 +38,13 @@ enum spec_status spec_spd_write(
 
 /* As spec_spd_write, to the file at path, "-" for standard output: whole or not at all. */
 enum spec_status spec_spd_save(
+	const char *path, const struct spec_curve *curve, struct spec_error *error);
+
+/*
+ * The same as comma-separated values: a line of the columns' names, wavelength_nm the first,
+ * and the rows, which spec_spd_read reads, too. What the curve is stays unsaid.
+ */
+enum spec_status spec_spd_save_csv(
 	const char *path, const struct spec_curve *curve, struct spec_error *error);
 
 /*

@@ -244,7 +244,7 @@ spd_keeps_its_limits(void **state)
 	assert_int_equal(
 		spec_spd_parse(text, SPEC_SPD_LONGEST_LINE + 2, "t", &curve, &error),
 		SPEC_ERANGE);
-	assert_contains(error.message, "t:1: the line is longer than 65536 bytes");
+	assert_contains(error.message, "t:1: the line is longer than 262144 bytes");
 	memset(text + SPEC_SPD_LONGEST_LINE, ' ', 16);
 	assert_int_equal(spec_spd_parse(text, size, "t", &curve, &error), SPEC_ERANGE);
 	free(text);
