@@ -1,16 +1,17 @@
 # make fuzz: every target under libFuzzer, ASan and UBSan, FUZZ_SECONDS in all, of which
-# the reader gets two thirds. What is found lies in $(BUILD)/fuzz/found, and the corpus
+# the readers of images get two thirds. What is found lies in $(BUILD)/fuzz/found, and the corpus
 # stays in $(BUILD)/fuzz/corpus for the next time. Needs clang (Debian: clang
 # libclang-rt-14-dev); one target alone: make fuzz FUZZERS=reader.
 
 FUZZCC = clang
 FUZZ_SECONDS = 600
-FUZZERS = reader spd names recipe expression scene
+FUZZERS = reader formats spd names recipe expression scene
 # clang 14 does not know the name of F16C.
 FUZZFLAGS = -std=c11 -g -O1 -Wall -Wextra -fno-omit-frame-pointer -pthread \
 	-fsanitize=address,undefined -fno-sanitize-recover=all \
 	'-D__builtin_cpu_supports(name)=1'
-FUZZSHARE_reader = 65
+FUZZSHARE_reader = 45
+FUZZSHARE_formats = 20
 FUZZSHARE_spd = 10
 FUZZSHARE_names = 5
 FUZZSHARE_recipe = 5
@@ -33,7 +34,8 @@ $(FUZZPROGRAMS): $(BUILD)/fuzz/fuzz-%: $(BUILD)/fuzz/obj/tests/fuzz/%.o \
 		$(BUILD)/fuzz/libspectools.a
 	$(FUZZCC) $(FUZZFLAGS) -fsanitize=fuzzer -o $@ $^ $(LDLIBS)
 
-$(BUILD)/fuzz/seeds: tests/fuzz/seed $(BUILD)/tests/synthesize
+$(BUILD)/fuzz/seeds: tests/fuzz/seed $(BUILD)/tests/synthesize $(BUILD)/bin/specconvert \
+		$(BUILD)/bin/spec2rgb $(PLUGIN) $(DATA)
 	@rm -rf $@
 	tests/fuzz/seed $(abspath $(BUILD)) $(abspath $@)
 

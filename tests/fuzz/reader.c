@@ -18,120 +18,12 @@
 #include "image/reader.h"
 #include "image/writer.h"
 
-#include "fuzz.h"
+#include "walk.h"
 
-#define PIPE_BYTES (1 << 20)
 #define WAY_PIPE 1
 #define WAY_WRITE 2
 #define WAY_SOME 4                        /* every other channel is wanted */
 #define WAY_BLOCK(way) (1 + ((way) >> 3)) /* lines that are fetched together */
-
-static void
-settle(struct spec_settings *settings)
-{
-	spec_settings_init(settings);
-	settings->limits = (struct spec_limits){
-		.pixels = 1 << 16, .channels = 512, .header = 1 << 20, .memory = 32 << 20};
-}
-
-/* A descriptor to read the bytes from; a pipe holds them all, so nobody need feed it. */
-static int
-offer(const uint8_t *data, size_t size, int as_pipe)
-{
-	int end[2];
-
-	if (as_pipe && pipe(end) == 0) {
-		if (fcntl(end[1], F_SETPIPE_SZ, PIPE_BYTES) < (int)size)
-			abort();
-		require(write(end[1], data, size) == (ssize_t)size, "a short write");
-		close(end[1]);
-		return end[0];
-	}
-	end[0] = memfd_create("input", MFD_CLOEXEC);
-	require(end[0] >= 0, "no memory file");
-	require(write(end[0], data, size) == (ssize_t)size, "a short write");
-	return end[0];
-}
-
-static struct spec_reader *
-open_descriptor(int fd)
-{
-	struct spec_settings settings;
-	struct spec_reader *reader;
-	struct spec_error error = {0};
-	char path[64];
-
-	settle(&settings);
-	snprintf(path, sizeof path, "/proc/self/fd/%d", fd);
-	if (spec_reader_open(&reader, path, &settings, &error) == SPEC_OK)
-		return reader;
-	require(error.status != SPEC_OK && error.message[0], "a failure without a message");
-	require(!strchr(error.message, '\n'), "a message of two lines");
-	return NULL;
-}
-
-static uint64_t
-mix(uint64_t sum, const float *row, size_t width)
-{
-	for (size_t x = 0; x < width; x++) {
-		uint32_t bits;
-
-		memcpy(&bits, row + x, sizeof bits);
-		sum = (sum ^ bits) * 0x100000001b3U; /* FNV-1a's prime */
-	}
-	return sum;
-}
-
-/* Decodes all lines; 1, with the sum of their samples, if there was no error. */
-static int
-walk(struct spec_reader *reader, const unsigned char *wanted, int block, uint64_t *sum)
-{
-	const struct spec_image *image = spec_reader_image(reader);
-	size_t width = spec_window_width(&image->data);
-	struct spec_error error = {0};
-	struct spec_decoder *decoder;
-	enum spec_status status = spec_decoder_open(&decoder, reader, wanted, &error);
-
-	*sum = 0;
-	for (int y = image->data.y0; y < image->data.y1 && status == SPEC_OK; y += block) {
-		int end = image->data.y1 - y < block ? image->data.y1 : y + block;
-
-		status = spec_decoder_fetch(decoder, y, end, &error);
-		if (status == SPEC_OK)
-			status = spec_decoder_decode(decoder, &error);
-		for (int line = y; line < end && status == SPEC_OK; line++) {
-			for (size_t i = 0; i < image->channels; i++) {
-				if (!wanted || wanted[i])
-					*sum = mix(*sum, spec_decoder_row(decoder, line, i),
-						width);
-			}
-		}
-	}
-	spec_decoder_close(decoder);
-	require(status == SPEC_OK || error.message[0], "a failure without a message");
-	return status == SPEC_OK;
-}
-
-static void
-question(const struct spec_image *image)
-{
-	struct spec_image copy;
-	char *quantity;
-
-	for (size_t i = 0; i < image->bands * (size_t)image->stokes; i++)
-		require(image->band_channel[i] < image->channels,
-			"a band without a channel");
-	for (size_t i = 1; i < image->bands; i++)
-		require(image->wavelength_nm[i] > image->wavelength_nm[i - 1],
-			"bands disordered");
-	quantity = spec_image_quantity(image, NULL);
-	free(quantity);
-	if (spec_image_copy(&copy, image, NULL) != SPEC_OK)
-		return;
-	if (spec_image_index(&copy, "copy", NULL) == SPEC_OK)
-		(void)spec_image_rename_bands(&copy, "copy", NULL);
-	spec_image_clear(&copy);
-}
 
 /* Copies one line from a reader to a writer. */
 static enum spec_status
