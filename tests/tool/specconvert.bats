@@ -231,7 +231,7 @@ last_uints() {
 
 @test "--multiply by what is not there suggests the nearest name" {
   spectral a.exr
-  fails_cleanly specconvert --multiply D66 a.exr -o b.exr
+  fails_cleanly specconvert --multiply D665 a.exr -o b.exr
   [[ $stderr = *D65* ]]
   fails_cleanly specconvert --multiply missing/file.spd a.exr -o b.exr
 }
