@@ -14,7 +14,8 @@
 #define NOTICEABLE 0.01 /* of Y outside the image's range: worth a warning */
 
 static const struct cli_option options[] = {
-	{0, "observer", "1931|1964|SPD", "colour-matching functions (default: 1931)"},
+	{0, "observer", "1931|1964|2015-2|2015-10|SPD",
+		"colour-matching functions (default: 1931)"},
 	{0, "illuminant", "SPD", "light on an image of reflectance (default: D65)"},
 	{0, "adapt", "none|bradford|cat16",
 		"adapt reflectance to the white of sRGB\n(default: none)"},
@@ -53,7 +54,7 @@ take_option(void *state, const char *name, const char *value, struct spec_error 
 	int known;
 
 	if (strcmp(name, "observer") == 0) {
-		job->observer = spec_observer_spectrum(value);
+		job->observer = value;
 	} else if (strcmp(name, "illuminant") == 0) {
 		job->illuminant = value;
 	} else if (strcmp(name, "adapt") == 0) {
@@ -97,7 +98,7 @@ plan(const struct job *job, const struct spec_reader *reader, struct spec_rgb *r
 		.illuminant = &illuminant,
 		.space = spec_space_find("srgb", error),
 		.exposure = job->exposure};
-	enum spec_status status = spec_lookup_curve(job->observer, &observer, error);
+	enum spec_status status = spec_observer_load(job->observer, &observer, error);
 
 	if (status == SPEC_OK)
 		status = spec_lookup_light(job->illuminant, &illuminant, error);
@@ -163,9 +164,8 @@ develop(struct job *job, struct spec_reader *reader, const struct spec_rgb *rgb,
 int
 main(int argc, char **argv)
 {
-	struct job job = {.observer = spec_observer_spectrum("1931"),
-		.illuminant = "illuminants/D65",
-		.adapt = "none"};
+	struct job job = {
+		.observer = "1931", .illuminant = "illuminants/D65", .adapt = "none"};
 	struct spec_error error = {0};
 	struct spec_reader *reader = NULL;
 	struct spec_rgb rgb = {0};

@@ -21,7 +21,7 @@ static const struct cli_option options[] = {
 		"de2000-max (default: all)"},
 	{'t', "tolerance", "NAME=VALUE",
 		"differ only beyond this; may be given several times"},
-	{0, "observer", "1931|1964|SPD", "for de2000 (default: 1931)"},
+	{0, "observer", "1931|1964|2015-2|2015-10|SPD", "for de2000 (default: 1931)"},
 	{0, "illuminant", "SPD", "for de2000 of reflectance (default: D65)"},
 	{'e', "exposure", "EV", "for de2000 of light: 2^-EV is white (default: 0)"},
 	{0, "peak", "VALUE", "of psnr (default: the largest magnitude in the first)"},
@@ -143,7 +143,7 @@ take(void *state, const char *name, const char *value, struct spec_error *error)
 		return spec_number_parse(
 			value, 1e-300, 1e300, "the peak", &job->peak, error);
 	if (strcmp(name, "observer") == 0)
-		job->observer = spec_observer_spectrum(value);
+		job->observer = value;
 	else if (strcmp(name, "illuminant") == 0)
 		job->illuminant = value;
 	else
@@ -330,7 +330,13 @@ compare(struct job *job, struct spec_reader *reader[2], struct spec_images *resu
 	}
 	setup.colour_optional = !named;
 	if (named || !job->any_chosen) {
-		status = spec_lookup_curve(job->observer, &observer, error);
+		status = spec_observer_load(job->observer, &observer, error);
+		if (status == SPEC_OK && !spec_observer_is_xyz(&observer))
+			status = spec_error_set(error, SPEC_EUSAGE,
+				"observer '%.200s' has columns %.40s, %.40s, %.40s: "
+				"CIEDE2000 needs x, y, z",
+				job->observer, observer.column[0], observer.column[1],
+				observer.column[2]);
 		if (status == SPEC_OK)
 			status = spec_lookup_light(job->illuminant, &illuminant, error);
 		setup.observer = &observer;
@@ -369,8 +375,7 @@ print_report(const struct job *job, const struct spec_images *result,
 int
 main(int argc, char **argv)
 {
-	struct job job = {.observer = spec_observer_spectrum("1931"),
-		.illuminant = "illuminants/D65"};
+	struct job job = {.observer = "1931", .illuminant = "illuminants/D65"};
 	struct spec_error error = {0};
 	struct spec_reader *reader[2] = {NULL, NULL};
 	struct spec_images result;

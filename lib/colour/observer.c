@@ -5,9 +5,13 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "spectrum/lookup.h"
 
 /* The widest departure of a table's steps from equality, as a part of a step. */
 #define STEP_TOLERANCE 1e-6
+
+/* The most steps of 1 nm that a table of unequal ones becomes. */
+#define MOST_STEPS 1e6
 
 /* Two wavelengths closer than this are the same: below any table's resolution. */
 #define SAME_NM 1e-6
@@ -23,15 +27,123 @@ struct product {
 const char *
 spec_observer_spectrum(const char *name)
 {
-	if (strcmp(name, "1931") == 0)
-		return "cmf/cie1931";
-	return strcmp(name, "1964") == 0 ? "cmf/cie1964" : name;
+	static const struct {
+		const char *name, *spectrum;
+	} observers[] = {{"1931", "cmf/cie1931"}, {"1964", "cmf/cie1964"},
+		{"2015-2", "cmf/cie2015-2"}, {"2015-10", "cmf/cie2015-10"}};
+
+	for (size_t i = 0; i < sizeof observers / sizeof *observers; i++)
+		if (strcmp(name, observers[i].name) == 0)
+			return observers[i].spectrum;
+	return name;
+}
+
+int
+spec_observer_is_xyz(const struct spec_curve *observer)
+{
+	static const char *const names[][3] = {
+		{"x", "y", "z"}, {"X", "Y", "Z"}, {"value1", "value2", "value3"}};
+
+	for (size_t i = 0; observer->columns >= 3 && i < sizeof names / sizeof *names; i++)
+		if (strcmp(observer->column[0], names[i][0]) == 0 &&
+			strcmp(observer->column[1], names[i][1]) == 0 &&
+			strcmp(observer->column[2], names[i][2]) == 0)
+			return 1;
+	return 0;
 }
 
 static const char *
 title_of(const struct spec_curve *curve)
 {
 	return curve->title && *curve->title ? curve->title : "untitled";
+}
+
+static int
+has_equal_steps(const struct spec_curve *curve)
+{
+	const double *w = curve->wavelength_nm;
+	double step = (w[curve->count - 1] - w[0]) / (double)(curve->count - 1);
+
+	for (size_t i = 0; i < curve->count; i++)
+		if (!(fabs(w[i] - (w[0] + (double)i * step)) <= STEP_TOLERANCE * step))
+			return 0;
+	return 1;
+}
+
+/* The texts of a curve, and the names of the columns: those of *from. */
+static enum spec_status
+name_as(struct spec_curve *curve, const struct spec_curve *from, struct spec_error *error)
+{
+	enum spec_status status = spec_curve_set_text(&curve->title, from->title, error);
+
+	if (status == SPEC_OK)
+		status = spec_curve_set_text(&curve->quantity, from->quantity, error);
+	for (size_t c = 0; c < curve->columns && status == SPEC_OK; c++)
+		status = spec_curve_set_text(
+			&curve->column[c], from->column[from->columns == 1 ? 0 : c], error);
+	return status;
+}
+
+/* Three columns of *from at equal steps: its own, or else of at most 1 nm. */
+static enum spec_status
+make_regular(
+	const struct spec_curve *from, struct spec_curve *curve, struct spec_error *error)
+{
+	const double *w = from->wavelength_nm, width = w[from->count - 1] - w[0];
+	int regular = has_equal_steps(from);
+	size_t steps = from->count - 1;
+	enum spec_status status;
+
+	if (!regular && width > MOST_STEPS)
+		return spec_error_set(error, SPEC_EFORMAT,
+			"observer '%s' has unequal steps over %g nm", title_of(from),
+			width);
+	if (!regular)
+		steps = (size_t)ceil(width);
+	status = spec_curve_new(steps + 1, 3, curve, error);
+	if (status == SPEC_OK)
+		status = name_as(curve, from, error);
+	for (size_t i = 0; status == SPEC_OK && i <= steps; i++)
+		curve->wavelength_nm[i] =
+			regular ? w[i] : w[0] + width * ((double)i / (double)steps);
+	for (size_t c = 0; status == SPEC_OK && c < 3; c++)
+		status = spec_curve_sample(from, from->columns == 1 ? 0 : c,
+			SPEC_EXTRAPOLATE_REFUSE, curve->wavelength_nm, curve->count,
+			curve->value + c * curve->count, error);
+	return status;
+}
+
+static int
+is_sensitivity(const struct spec_curve *curve)
+{
+	return strcmp(curve->quantity, "luminous efficiency") == 0 ||
+	       strcmp(curve->quantity, "spectral sensitivity") == 0;
+}
+
+enum spec_status
+spec_observer_load(const char *name, struct spec_curve *observer, struct spec_error *error)
+{
+	struct spec_curve curve;
+	enum spec_status status =
+		spec_lookup_curve(spec_observer_spectrum(name), &curve, error);
+
+	*observer = (struct spec_curve){0};
+	if (status != SPEC_OK)
+		return status;
+	if (curve.count < 2)
+		status = spec_error_set(error, SPEC_EFORMAT,
+			"'%.200s' has one wavelength alone: no observer", name);
+	else if (curve.columns < 3 && !(curve.columns == 1 && is_sensitivity(&curve)))
+		status = spec_error_set(error, SPEC_EFORMAT,
+			"'%.200s' is no observer: neither three columns, such as x, y and "
+			"z, nor one of luminous efficiency or spectral sensitivity",
+			name);
+	else
+		status = make_regular(&curve, observer, error);
+	spec_curve_free(&curve);
+	if (status != SPEC_OK)
+		spec_curve_free(observer);
+	return status;
 }
 
 static enum spec_status

@@ -1,6 +1,7 @@
 /*
  * Observers: the weights that turn the bands of an image into tristimulus values.
- * X = sum over the bands of weight[band] * value[band], and so for Y and Z.
+ * X = sum over the bands of weight[band] * value[band], and so for Y and Z. Where the
+ * columns of an observer are no x, y, z, read its three signals for X, Y, Z below.
  */
 #ifndef SPEC_COLOUR_OBSERVER_H
 #define SPEC_COLOUR_OBSERVER_H
@@ -21,9 +22,28 @@ struct spec_bands {
 
 /*
  * The name in spectra/ of an observer's colour-matching functions: that of the CIE's
- * for "1931" and "1964"; any other name is itself.
+ * for "1931", "1964", "2015-2" and "2015-10"; any other name is itself.
  */
 const char *spec_observer_spectrum(const char *name);
+
+/*
+ * Reads an observer by one of those names, or the name or path of any curve that has
+ * - three columns or more, of which the first three count: x, y, z, or the sensitivities
+ *   of three sensors, such as cones or a camera's;
+ * - or one, a luminous efficiency or a spectral sensitivity: the observer gets it three
+ *   times, and so sees greys.
+ * Unequal steps become equal ones of at most 1 nm, linear between the curve's samples.
+ * Errors:   as spec_lookup_curve; SPEC_EFORMAT: another curve; SPEC_ENOMEM
+ */
+enum spec_status spec_observer_load(
+	const char *name, struct spec_curve *observer, struct spec_error *error);
+
+/*
+ * Whether what an observer sees are tristimulus values X, Y, Z: the first three columns
+ * are called x, y, z (or X, Y, Z), or have no names (value1, value2, value3). Else they
+ * are the signals of its sensors.
+ */
+int spec_observer_is_xyz(const struct spec_curve *observer);
 
 /*
  * The weights of the bands for X, Y and Z.

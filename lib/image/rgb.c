@@ -139,9 +139,18 @@ static enum spec_status
 matrix_of(const struct spec_image *image, const struct spec_rgb_setup *setup, double m[9],
 	struct spec_error *error)
 {
+	static const double identity[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
 	double adaptation[9], from[3], to[3];
-	enum spec_status status = spec_space_from_xyz(setup->space, m, error);
+	enum spec_status status = SPEC_OK;
 
+	if (spec_observer_is_xyz(setup->observer))
+		status = spec_space_from_xyz(setup->space, m, error);
+	else if (setup->adaptation == SPEC_ADAPTATION_NONE)
+		memcpy(m, identity, sizeof identity);
+	else
+		status = spec_error_set(error, SPEC_EUSAGE,
+			"observer '%.200s' has no X, Y and Z to adapt to another white",
+			setup->observer->title);
 	if (status != SPEC_OK || image->role != SPEC_ROLE_REFLECTIVE ||
 		setup->adaptation == SPEC_ADAPTATION_NONE)
 		return status;

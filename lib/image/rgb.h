@@ -10,6 +10,7 @@
 #include "spectrum/curve.h"
 
 struct spec_rgb_setup {
+	/* Where it sees no XYZ, its signals are the RGB, of no space, and not adapted. */
 	const struct spec_curve *observer;
 	const struct spec_curve *illuminant; /* of reflective images; null: equal energy */
 	enum spec_adaptation adaptation; /* of reflective images, to the space's white */
@@ -30,7 +31,8 @@ struct spec_rgb {
  * Reflective ones: T under the illuminant; the perfect reflector has Y = 1.
  * Bispectral channels add T.in.out times the illuminant at in, relative to the same
  * Y, at out: their values are the elements of a discrete reradiation matrix.
- * Errors: no bands, and those of spec_observer_weights.
+ * Errors: no bands; SPEC_EUSAGE: an adaptation without XYZ; those of
+ * spec_observer_weights.
  */
 enum spec_status spec_rgb_plan(struct spec_rgb *rgb, const struct spec_image *image,
 	const struct spec_rgb_setup *setup, struct spec_error *error);

@@ -126,6 +126,68 @@ quiet() {
   cmp name.ppm path.ppm
 }
 
+# A camera: the sensitivities of three sensors that have one shape, as high as the arguments, with
+# a row at each further argument and the corners.
+camera() {
+  local red=$1 green=$2 blue=$3
+  shift 3
+  printf '%s\n' 430 500 600 660 "$@" | sort -nu |
+    awk -v r="$red" -v g="$green" -v b="$blue" 'BEGIN { print "# columns: wavelength_nm r g b" }
+      { v = $1 < 500 ? ($1 - 430) / 70 : $1 > 600 ? (660 - $1) / 60 : 1; printf "%s %.17g %.17g %.17g\n", $1, r * v, g * v, b * v }'
+}
+
+@test "--observer takes a camera's curves, and gives their signals raw" {
+  spectral half.exr --kind T --grid 400:700:10 --pattern constant:0.5
+  # shellcheck disable=SC2046
+  camera 2 1 0.5 $(seq 430 10 660) >regular.spd
+  camera 2 1 0.5 437.5 >unequal.spd
+  spec2rgb --observer regular.spd half.exr -o a.exr
+  spec2rgb --observer unequal.spd half.exr -o b.exr
+  # The perfect reflector has a green of 1 under any light.
+  spec2rgb --observer unequal.spd --illuminant A half.exr -o c.exr
+  for file in a b c; do
+    layers --print 0,0 $file.exr | sort | paste -sd ' ' >$file.txt
+    awk '{ exit !(($2 - .25) ^ 2 < 1e-13 && ($4 - .5) ^ 2 < 1e-13 && ($6 - 1) ^ 2 < 1e-13) }' $file.txt ||
+      complain "$(<$file.txt)"
+  done
+  fails_cleanly spec2rgb --observer unequal.spd --adapt bradford half.exr -o d.png
+  [[ $stderr = *"no X, Y and Z"* ]]
+}
+
+@test "--observer v-scotopic sees greys, cie2006-lms-2 its cones" {
+  spectral ramp.exr
+  spec2rgb --observer v-scotopic ramp.exr -o night.exr
+  layers --print 0,0 night.exr | awk '{ v[NR] = $2 } END { exit !(NR == 3 && v[1] > 0 && v[1] == v[2] && v[2] == v[3]) }'
+  # CIE 170-2:2015: X, Y, Z are sums of L, M, S by this matrix, to the digits of the tables.
+  spec2rgb --observer cie2006-lms-2 ramp.exr -o lms.exr
+  spec2rgb --observer 2015-2 ramp.exr -o 2015.exr
+  printf '# columns: wavelength_nm r g b\n' >xyz.spd
+  grep '^[0-9]' "$ROOT/spectra/cmf/cie2015-2.spd" >>xyz.spd
+  spec2rgb --observer xyz.spd ramp.exr -o xyz.exr
+  paste -d ' ' <(layers --print 0,0 lms.exr | sort | cut -d ' ' -f 2 | paste -sd ' ') \
+    <(layers --print 0,0 xyz.exr | sort | cut -d ' ' -f 2 | paste -sd ' ') |
+    awk '{ s = $1; m = $2; l = $3
+      # Ratios, since what the signals are relative to is not the same: the second sum.
+      x = 1.94735469 * l - 1.41445123 * m + 0.36476327 * s
+      y = 0.68990272 * l + 0.34832189 * m
+      z = 1.93485343 * s
+      exit !((x / y - $6 / $5) ^ 2 < 1e-8 && (z / y - $4 / $5) ^ 2 < 1e-8) }'
+}
+
+@test "--observer refuses what is none" {
+  spectral a.exr
+  fails_cleanly spec2rgb --observer D65 a.exr -o a.png
+  [[ $stderr = *"'D65' is no observer"* ]]
+  fails_cleanly spec2rgb --observer Au a.exr -o a.png
+  printf '%s\n' '550 1 1 1' >one.spd
+  fails_cleanly spec2rgb --observer one.spd a.exr -o a.png
+  printf '%s\n' '550 1 1 1' '551 1 1 1' '1e300 1 1 1' >wide.spd
+  fails_cleanly spec2rgb --observer wide.spd a.exr -o a.png
+  [[ $stderr = *"unequal steps"* ]]
+  fails_cleanly spec2rgb --observer v-phot a.exr -o a.png
+  [[ $stderr = *"did you mean 'v-photopic'"* ]]
+}
+
 @test "--illuminant A is warmer than D65" {
   spectral white.exr --kind T --grid 360:830:5 --pattern constant:0.5
   spec2rgb --illuminant A white.exr -o a.ppm

@@ -397,6 +397,21 @@ gfc        1' ] || complain "$answer"
   run ! specdiff --tolerance de2000=1 a.exr a.exr
 }
 
+@test "--observer: the CIE's of 2015, and a curve of x, y and z alone" {
+  spectral a.exr --kind T --pattern constant:0.5
+  spectral b.exr --kind T
+  answers 1 specdiff --observer 2015-10 a.exr b.exr
+  tall=$(grep '^de2000 ' <<<"$answer")
+  answers 1 specdiff --observer cie2015-10 a.exr b.exr
+  prints "$tall"
+  answers 1 specdiff --observer 1964 a.exr b.exr
+  [[ $answer != *"$tall"* ]]
+  for sensors in cie2006-lms-2 stiles-burch-1959 v-scotopic; do
+    fails_cleanly specdiff --observer $sensors a.exr b.exr
+    [[ $stderr = *"needs x, y, z" ]] || complain "$stderr"
+  done
+}
+
 @test "only the metrics that are named are printed" {
   spectral a.exr
   answers 0 specdiff --metric max,rmse a.exr a.exr
