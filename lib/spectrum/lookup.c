@@ -12,6 +12,7 @@
 
 #include "base/memory.h"
 #include "base/nearest.h"
+#include "spectrum/illuminant.h"
 #include "spectrum/spd.h"
 
 #define SUFFIX ".spd"
@@ -352,12 +353,37 @@ spec_lookup_path(const char *name, char **path, struct spec_error *error)
 	return status;
 }
 
+/* The curve of an illuminant by formula. */
+static enum spec_status
+calculate(const char *name, struct spec_curve *curve, struct spec_error *error)
+{
+	struct spec_curve components = {0};
+	double temperature_k;
+	int daylight;
+	enum spec_status status =
+		spec_illuminant_parse(name, &daylight, &temperature_k, error);
+
+	*curve = (struct spec_curve){0};
+	if (status == SPEC_OK && !daylight)
+		return spec_blackbody_curve(temperature_k, curve, error);
+	if (status == SPEC_OK)
+		status = spec_lookup_curve(
+			"illuminants/daylight-components", &components, error);
+	if (status == SPEC_OK)
+		status = spec_daylight_curve(&components, temperature_k, curve, error);
+	spec_curve_free(&components);
+	return status;
+}
+
 enum spec_status
 spec_lookup_curve(const char *name, struct spec_curve *curve, struct spec_error *error)
 {
 	char *path;
-	enum spec_status status = spec_lookup_path(name, &path, error);
+	enum spec_status status;
 
+	if (spec_illuminant_is_formula(name))
+		return calculate(name, curve, error);
+	status = spec_lookup_path(name, &path, error);
 	*curve = (struct spec_curve){0};
 	if (status == SPEC_OK)
 		status = spec_spd_load(path, curve, error);

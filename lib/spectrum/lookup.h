@@ -15,19 +15,24 @@
 
 /*
  * Reads the curve that name stands for:
+ * 0. an illuminant by formula, "daylight:6504K" or "blackbody:3000K", illuminant.h;
  * 1. the file at the path name, if name contains '/' or ends in .spd, .txt or .csv and
  *    something that is no folder is there;
  * 2. the file of that full name, or whose full name ends in '/' and name, in the first
  *    root that has one;
  * 3. the same with upper and lower case taken as equal.
  * SPEC_EUSAGE: no such spectrum (the message says where it was looked for, and the nearest
- * name if there is one), or two in one root (it names both). Other statuses as
- * spec_spd_load. On an error curve is empty.
+ * name if there is one), or two in one root (it names both), or a formula that is none.
+ * SPEC_ERANGE: a temperature beyond the formula's range. Other statuses as spec_spd_load.
+ * On an error curve is empty.
  */
 enum spec_status spec_lookup_curve(
 	const char *name, struct spec_curve *curve, struct spec_error *error);
 
-/* The path of the file that it reads, to be freed; null on an error. */
+/*
+ * The path of the file that it reads, to be freed; null on an error. What has a formula
+ * has no file: there is no spectrum of that name then.
+ */
 enum spec_status spec_lookup_path(const char *name, char **path, struct spec_error *error);
 
 /* As spec_lookup_curve; SPEC_EUSAGE also where the curve is no light, such as an index. */

@@ -1,9 +1,12 @@
 #include "spectrum/reshape.h"
 
 #include <errno.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/text.h"
+#include "spectrum/illuminant.h"
 #include "spectrum/lookup.h"
 #include "spectrum/operate.h"
 #include "spectrum/product.h"
@@ -11,6 +14,35 @@
 #include "spectrum/spd.h"
 #include "spectrum/spdtable.h"
 #include "spectrum/store.h"
+
+/* The table of an illuminant by formula. */
+static enum spec_status
+calculate(const char *name, struct spec_spd_table *table, struct spec_error *error)
+{
+	struct spec_curve curve;
+	struct spec_text text = {0};
+	FILE *file;
+	enum spec_status status = spec_lookup_curve(name, &curve, error);
+
+	*table = (struct spec_spd_table){0};
+	if (status == SPEC_OK)
+		status = spec_text_open(&text, error);
+	if (status == SPEC_OK)
+		status = spec_spd_write(text.stream, &curve, error);
+	if (status == SPEC_OK)
+		status = spec_text_close(&text, error);
+	if (status == SPEC_OK) {
+		file = fmemopen(text.bytes, text.size, "r");
+		status =
+			file ? spec_spd_table_read(file, name, table, error)
+			     : spec_error_system(error, errno, "unable to read '%s'", name);
+		if (file)
+			fclose(file);
+	}
+	spec_text_free(&text);
+	spec_curve_free(&curve);
+	return status;
+}
 
 /* Reads the file of a name; *path, to be freed, is what messages call it. */
 static enum spec_status
@@ -23,6 +55,8 @@ read_table(const char *name, struct spec_spd_table *table, char **path,
 	*path = NULL;
 	if (strcmp(name, "-") == 0)
 		return spec_spd_table_read(stdin, "<stdin>", table, error);
+	if (spec_illuminant_is_formula(name))
+		return calculate(name, table, error);
 	*table = (struct spec_spd_table){0};
 	status = spec_lookup_path(name, path, error);
 	if (status != SPEC_OK)

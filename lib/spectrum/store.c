@@ -9,6 +9,7 @@
 #include "base/memory.h"
 #include "base/output.h"
 #include "base/text.h"
+#include "spectrum/illuminant.h"
 #include "spectrum/lookup.h"
 #include "spectrum/spd.h"
 #include "spectrum/spdtable.h"
@@ -174,13 +175,29 @@ spec_spectrum_load(
 	return status;
 }
 
+static enum spec_status
+calculate(const char *name, struct spec_spectrum *spectrum, struct spec_error *error)
+{
+	struct spec_curve curve;
+	enum spec_status status = spec_lookup_curve(name, &curve, error);
+
+	*spectrum = (struct spec_spectrum){0};
+	if (status == SPEC_OK)
+		status = spec_spectrum_from_curve(&curve, 0, spectrum, error);
+	spec_curve_free(&curve);
+	return status;
+}
+
 enum spec_status
 spec_spectrum_named(
 	const char *name, struct spec_spectrum *spectrum, struct spec_error *error)
 {
 	char *path;
-	enum spec_status status = spec_lookup_path(name, &path, error);
+	enum spec_status status;
 
+	if (spec_illuminant_is_formula(name))
+		return calculate(name, spectrum, error);
+	status = spec_lookup_path(name, &path, error);
 	*spectrum = (struct spec_spectrum){0};
 	if (status == SPEC_OK)
 		status = spec_spectrum_load(path, spectrum, error);

@@ -136,6 +136,26 @@ camera() {
       { v = $1 < 500 ? ($1 - 430) / 70 : $1 > 600 ? (660 - $1) / 60 : 1; printf "%s %.17g %.17g %.17g\n", $1, r * v, g * v, b * v }'
 }
 
+@test "lights by formula: daylight and black bodies" {
+  spectral white.exr --kind T --grid 360:830:5 --pattern constant:0.5
+  spec2rgb --illuminant D65 white.exr -o table.ppm
+  spec2rgb --illuminant daylight:6503.616K white.exr -o formula.ppm
+  cmp table.ppm formula.ppm
+  spec2rgb --illuminant A white.exr -o table.ppm
+  spec2rgb --illuminant blackbody:2855.496K white.exr -o formula.ppm
+  cmp table.ppm formula.ppm
+  # The same curve in every tool that takes a light.
+  specconvert blackbody:3000K >3000.spd
+  specconvert --illuminate blackbody:3000K white.exr -o a.exr
+  specconvert --illuminate 3000.spd white.exr -o b.exr
+  specdiff --metric max --tolerance max=0 a.exr b.exr
+  fails_cleanly spec2rgb --illuminant daylight:3000K white.exr -o no.ppm
+  [[ $stderr = *"outside 4000..25000: '3000'" ]]
+  fails_cleanly spec2rgb --illuminant daylight:6504 white.exr -o no.ppm
+  [[ $stderr = *"as in daylight:6504K" ]]
+  [ ! -e no.ppm ]
+}
+
 @test "--observer takes a camera's curves, and gives their signals raw" {
   spectral half.exr --kind T --grid 400:700:10 --pattern constant:0.5
   # shellcheck disable=SC2046
