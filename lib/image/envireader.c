@@ -714,42 +714,50 @@ point(struct spec_decoder *decoder, const struct envi_reader *reader)
 					  i / channels, lines);
 }
 
+/* One line; pixel by pixel so few at a time that their bands stay in the cache. */
+static void
+decode_line(const struct envi_reader *reader, const struct spec_decoder *decoder,
+	size_t line, float *const *row)
+{
+	const struct envi_header *header = &reader->header;
+	size_t size = envi_type_bytes(header->type), width = (size_t)header->samples,
+	       channels = reader->base.image.channels, pixel = (size_t)header->bands * size,
+	       step = header->interleave == ENVI_BIP ? pixel : size,
+	       run = header->interleave == ENVI_BIP ? spec_reading_run(pixel) : width;
+
+	for (size_t x = 0; x < width; x += run) {
+		for (size_t i = 0; i < channels; i++) {
+			const unsigned char *from = decoder->packed.bytes +
+						    place(header, reader->band[i], line,
+							    (size_t)decoder->lines) *
+							    size +
+						    x * step;
+
+			if (row[i])
+				convert(header->type, header->swapped, from, step,
+					row[i] + x, width - x < run ? width - x : run);
+		}
+	}
+	for (size_t i = 0; i < channels; i++) {
+		if (row[i])
+			scale(reader, reader->band[i], row[i], width);
+	}
+}
+
 static enum spec_status
 decode(struct spec_decoder *decoder, struct spec_error *error)
 {
 	const struct envi_reader *reader = (const struct envi_reader *)decoder->reader;
-	const struct envi_header *header = &reader->header;
-	size_t size = envi_type_bytes(header->type), width = (size_t)header->samples,
-	       lines = (size_t)decoder->lines, channels = reader->base.image.channels,
-	       pixel = (size_t)header->bands * size,
-	       step = header->interleave == ENVI_BIP ? pixel : size,
-	       run = header->interleave == ENVI_BIP ? spec_reading_run(pixel) : width;
-	enum spec_status status = SPEC_OK;
+	enum spec_status status;
 
 	if (needs_no_copy(reader)) {
 		point(decoder, reader);
 		return SPEC_OK;
 	}
 	status = spec_reading_planes(decoder, error);
-	for (size_t line = 0; status == SPEC_OK && line < lines; line++) {
-		for (size_t i = 0; i < (width + run - 1) / run * channels; i++) {
-			size_t x = i / channels * run, channel = i % channels;
-			size_t band = reader->band[channel];
-			float *row = decoder->row[line * channels + channel];
-
-			if (!row)
-				continue;
-			convert(header->type, header->swapped,
-				decoder->packed.bytes +
-					place(header, band, line, lines) * size + x * step,
-				step, row + x, width - x < run ? width - x : run);
-		}
-		for (size_t i = 0; i < channels; i++) {
-			if (decoder->row[line * channels + i])
-				scale(reader, reader->band[i],
-					decoder->row[line * channels + i], width);
-		}
-	}
+	for (size_t line = 0; status == SPEC_OK && line < (size_t)decoder->lines; line++)
+		decode_line(reader, decoder, line,
+			decoder->row + line * reader->base.image.channels);
 	return status;
 }
 

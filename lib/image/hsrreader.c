@@ -318,15 +318,17 @@ decode(struct spec_decoder *decoder, struct spec_error *error)
 	enum spec_status status = spec_reading_planes(decoder, error);
 
 	for (size_t line = 0; status == SPEC_OK && line < (size_t)decoder->lines; line++) {
-		for (size_t i = 0; i < (width + run - 1) / run * reader->bands; i++) {
-			size_t x = i / reader->bands * run, band = i % reader->bands;
-			float *row = decoder->row[line * image->channels +
-						  image->band_channel[band]];
+		const unsigned char *from = decoder->packed.bytes + line * width * pixel;
+		float *const *row = decoder->row + line * image->channels;
 
-			if (row)
-				decode_run(reader,
-					decoder->packed.bytes + (line * width + x) * pixel,
-					band, row + x, width - x < run ? width - x : run);
+		for (size_t x = 0; x < width; x += run, from += run * pixel) {
+			for (size_t band = 0; band < reader->bands; band++) {
+				float *to = row[image->band_channel[band]];
+
+				if (to)
+					decode_run(reader, from, band, to + x,
+						width - x < run ? width - x : run);
+			}
 		}
 	}
 	return status;

@@ -64,6 +64,7 @@ is_pnm(const unsigned char *bytes, size_t size)
 	       isspace(bytes[2]) && (isdigit(bytes[3]) || bytes[3] == '#');
 }
 
+/* Not GIF: OpenImageIO takes memory for its canvas, up to 16 GiB, before it tells its size. */
 static int
 recognises(const unsigned char *bytes, size_t size, const char *path)
 {
@@ -72,7 +73,7 @@ recognises(const unsigned char *bytes, size_t size, const char *path)
 		size_t count, at;
 	} magic[] = {{"\xff\xd8\xff", 3, 0}, {"II*\0", 4, 0}, {"MM\0*", 4, 0},
 		{"II+\0", 4, 0}, {"MM\0+", 4, 0}, {"#?RADIANCE", 10, 0}, {"#?RGBE", 6, 0},
-		{"WEBP", 4, 8}, {"SDPX", 4, 0}, {"XPDS", 4, 0}, {"GIF8", 4, 0}};
+		{"WEBP", 4, 8}, {"SDPX", 4, 0}, {"XPDS", 4, 0}};
 
 	(void)path;
 	for (size_t i = 0; i < sizeof magic / sizeof *magic; i++) {

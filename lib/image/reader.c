@@ -10,8 +10,10 @@
 
 #define BLOCK_COPIES 4 /* packed, unpacked, scratch and converted */
 
+#define FORMATS 4
+
 /* Tried in this order. */
-static const struct spec_reading_format *const formats[] = {
+static const struct spec_reading_format *const formats[FORMATS] = {
 	&spec_reading_exr, &spec_reading_hsr, &spec_reading_picture, &spec_reading_envi};
 
 /* ---- what formats use ---- */
@@ -98,7 +100,7 @@ spec_reading_check_memory(const struct spec_reader *reader, struct spec_error *e
 static const struct spec_reading_format *
 recognise(const unsigned char *bytes, size_t size, const char *path)
 {
-	for (size_t i = 0; i < sizeof formats / sizeof *formats; i++) {
+	for (size_t i = 0; i < FORMATS; i++) {
 		if (formats[i]->recognises(bytes, size, path))
 			return formats[i];
 	}

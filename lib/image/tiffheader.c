@@ -92,11 +92,12 @@ static void
 fill(const struct spec_tiff_layout *layout, struct directory *directory)
 {
 	size_t row = layout->width * layout->channels * sizeof(float),
-	       rows = STRIP_BYTES / row < 1 ? 1 : STRIP_BYTES / row, strips;
+	       rows = row > 0 && row < STRIP_BYTES ? STRIP_BYTES / row : 1, strips;
 	enum type offset = directory->big ? LONG8 : LONG;
 	struct entry *entry;
 
-	rows = rows > layout->height ? layout->height : rows;
+	if (layout->height > 0 && rows > layout->height)
+		rows = layout->height;
 	strips = (layout->height + rows - 1) / rows;
 	add(directory, 256, LONG, 1, layout->width);      /* ImageWidth */
 	add(directory, 257, LONG, 1, layout->height);     /* ImageLength */

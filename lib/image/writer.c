@@ -9,15 +9,15 @@
 #include "image/exr.h"
 #include "image/writing.h"
 
+#define FORMATS 5
+
 /* The first is the one of standard output and of names without a suffix. */
-static const struct spec_writing_format *const formats[] = {&spec_writing_exr,
+static const struct spec_writing_format *const formats[FORMATS] = {&spec_writing_exr,
 	&spec_writing_envi, &spec_writing_hsr, &spec_writing_tiff, &spec_writing_folder};
 
 /* Of a chunk of several lines: one band's bytes, and all bands' at most. */
 #define BAND_BYTES (1 << 17)
 #define CHUNK_BYTES (1 << 24)
-
-#define FORMATS (sizeof formats / sizeof *formats)
 
 /* ---- what formats use ---- */
 

@@ -115,6 +115,9 @@ LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 	uint64_t sum;
 	int fd;
 
+	/* Other formats are formats.c's, or OpenImageIO's, which is not under test. */
+	if (size >= 4 && memcmp(data, "\x76\x2f\x31\x01", 4) != 0)
+		return 0;
 	for (size_t i = 0; i < sizeof some; i++)
 		some[i] = i % 2;
 	fd = offer(data, size, as_pipe);

@@ -91,8 +91,10 @@ refuses(const char *name, const struct spec_settings *settings, enum spec_status
 	struct readback back;
 	enum spec_status status = readback(&back, name, settings, &error);
 
-	if (status == SPEC_OK)
+	if (status == SPEC_OK) {
+		readback_close(&back);
 		fail_msg("%s was read; wanted: %s", name, part);
+	}
 	if (status != wanted)
 		fail_msg("%s: status %d instead of %d: %s", name, status, wanted,
 			error.message);
