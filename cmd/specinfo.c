@@ -11,10 +11,12 @@
 #include "base/text.h"
 #include "cli/options.h"
 #include "cli/progress.h"
+#include "colour/appearance.h"
 #include "image/describe.h"
 #include "image/kind.h"
 #include "image/lint.h"
 #include "image/probe.h"
+#include "image/regions.h"
 #include "image/value.h"
 #include "spectrum/lookup.h"
 #include "spectrum/spd.h"
@@ -30,8 +32,15 @@ static const struct cli_option options[] = {
 		"infinities and of negative values; reads all pixels"},
 	{'b', "bands", NULL, "the same for each band, too"},
 	{'p', "probe", "X,Y",
-		"print the spectrum of this pixel in place of all that; may\n"
-		"be given several times"},
+		"print the spectrum of this pixel and its colour in place of\n"
+		"all that; may be given several times"},
+	{0, "patches", "FILE|CxR",
+		"the same of means over rectangles: lines NAME X0 Y0 X1 Y1,\n"
+		"or a chart's columns and rows, such as 6x4"},
+	{0, "observer", "1931|1964|SPD", "who sees colours (default: 1931)"},
+	{0, "illuminant", "SPD",
+		"the light on reflectance, and white (default: D65; equal\n"
+		"energy for dominant wavelengths of light)"},
 	{'c', "check", NULL,
 		"list what is wrong with images, a line for each finding;\n"
 		"reads all pixels"},
@@ -54,6 +63,10 @@ struct job {
 	int json, statistics, bands, check;
 	struct spec_probe *probe;
 	size_t probes, probe_room;
+	const char *patches, *observer, *illuminant;
+	struct spec_regions regions;
+	struct spec_viewing viewing; /* once it is needed */
+	int seeing;
 	struct spec_settings settings;
 	struct cli_progress progress;
 	struct spec_text text;
@@ -92,6 +105,12 @@ take_option(struct job *job, const char *name, const char *value, struct spec_er
 		job->check = 1;
 	else if (strcmp(name, "probe") == 0)
 		return take_probe(job, value, error);
+	else if (strcmp(name, "patches") == 0)
+		job->patches = value;
+	else if (strcmp(name, "observer") == 0)
+		job->observer = value;
+	else if (strcmp(name, "illuminant") == 0)
+		job->illuminant = value;
 	else
 		return spec_settings_take(&job->settings, name, value, &known, error);
 	return SPEC_OK;
@@ -116,6 +135,19 @@ take_input(struct job *job, const char *path, struct spec_error *error)
 	return SPEC_OK;
 }
 
+/* Loads who sees and by what light, the first time. */
+static enum spec_status
+see(struct job *job, struct spec_error *error)
+{
+	enum spec_status status = SPEC_OK;
+
+	if (!job->seeing)
+		status = spec_viewing_load(
+			job->observer, job->illuminant, &job->viewing, error);
+	job->seeing = status == SPEC_OK;
+	return status;
+}
+
 static void
 parse(struct cli *cli, struct job *job, struct spec_error *error)
 {
@@ -127,8 +159,14 @@ parse(struct cli *cli, struct job *job, struct spec_error *error)
 		else
 			cli_check(cli, take_input(job, cli->value, error), error);
 	}
-	if (job->check + job->statistics + (job->probes > 0) > 1)
-		cli_usage(cli, "--check, --probe and statistics exclude each other");
+	if (job->check + job->statistics + (job->probes > 0) + (job->patches != NULL) > 1)
+		cli_usage(cli,
+			"--check, --probe, --patches and statistics exclude each other");
+	if (job->patches)
+		cli_check(
+			cli, spec_regions_parse(job->patches, &job->regions, error), error);
+	if (job->observer || job->illuminant)
+		cli_check(cli, see(job, error), error);
 	if (job->inputs == 0)
 		cli_check(cli, take_input(job, "-", error), error);
 }
@@ -141,6 +179,46 @@ separate(struct job *job)
 	job->told++;
 }
 
+static int
+is_seen(const struct spec_curve *curve)
+{
+	return spec_seen_of(curve->quantity, curve->unit) != SPEC_SEEN_NOTHING;
+}
+
+/* The columns' colours: a curve's own where it has one column. */
+static enum spec_status
+tell_colours(struct job *job, const struct spec_curve *curve, struct spec_error *error)
+{
+	int seen = is_seen(curve), several = curve->columns > 1;
+	enum spec_status status = SPEC_OK;
+
+	if (job->json && several)
+		spec_json_open(&job->writer, "colours", '[', SPEC_JSON_LINES);
+	for (size_t i = 0; i < curve->columns && status == SPEC_OK; i++) {
+		struct spec_appearance appearance;
+
+		spec_appearance_clear(&appearance);
+		if (seen)
+			status = spec_appearance_of_curve(
+				&job->viewing, curve, i, &appearance, error);
+		if (!job->json) {
+			if (seen && several)
+				fprintf(job->text.stream, "  %-13s %s\n", "colour of",
+					curve->column[i]);
+			spec_appearance_print(job->text.stream, "  ", &appearance);
+			continue;
+		}
+		if (several)
+			spec_json_open(&job->writer, NULL, '{', SPEC_JSON_INLINE);
+		spec_appearance_json(&job->writer, &appearance);
+		if (several)
+			spec_json_close(&job->writer);
+	}
+	if (job->json && several)
+		spec_json_close(&job->writer);
+	return status;
+}
+
 static enum spec_status
 tell_curve(struct job *job, const char *path, struct spec_error *error)
 {
@@ -150,15 +228,22 @@ tell_curve(struct job *job, const char *path, struct spec_error *error)
 	enum spec_status status = standard ? spec_spd_read(stdin, name, &curve, error)
 					   : spec_lookup_curve(path, &curve, error);
 
-	if (status != SPEC_OK)
+	if (status == SPEC_OK && is_seen(&curve))
+		status = see(job, error);
+	if (status != SPEC_OK) {
+		spec_curve_free(&curve);
 		return status;
+	}
 	separate(job);
 	if (job->json)
-		spec_summary_json(&job->writer, name, &curve);
+		spec_summary_json_open(&job->writer, name, &curve);
 	else
 		spec_summary_print(job->text.stream, name, &curve);
+	status = tell_colours(job, &curve, error);
+	if (job->json)
+		spec_json_close(&job->writer);
 	spec_curve_free(&curve);
-	return SPEC_OK;
+	return status;
 }
 
 /* Statistics of all channels, or, where none are wanted, the pipe's rest. */
@@ -261,20 +346,32 @@ check_image(struct job *job, const char *path, struct spec_error *error)
 	return SPEC_OK;
 }
 
+/* Pixels, or means over rectangles. */
 static enum spec_status
 probe_image(struct job *job, const char *path, struct spec_error *error)
 {
 	struct spec_reader *reader;
+	struct spec_probe *probe = job->probe;
+	size_t probes = job->probes;
 	enum spec_status status = spec_reader_open(&reader, path, &job->settings, error);
 
+	if (status == SPEC_OK && job->patches) {
+		status = spec_regions_read(&job->regions, reader, &job->settings, error);
+		probe = job->regions.probe;
+		probes = job->regions.probes;
+	} else if (status == SPEC_OK) {
+		status = spec_probe_read(probe, probes, reader, error);
+	}
 	if (status == SPEC_OK)
-		status = spec_probe_read(job->probe, job->probes, reader, error);
+		status = see(job, error);
+	if (status == SPEC_OK)
+		status = spec_probe_see(probe, probes, reader, &job->viewing, error);
 	if (status == SPEC_OK) {
 		separate(job);
-		status = job->json ? spec_probe_json(&job->writer, reader, job->probe,
-					     job->probes, error)
-				   : spec_probe_print(job->text.stream, reader, job->probe,
-					     job->probes, error);
+		status = job->json ? spec_probe_json(
+					     &job->writer, reader, probe, probes, error)
+				   : spec_probe_print(job->text.stream, reader, probe,
+					     probes, error);
 	}
 	spec_reader_close(reader);
 	return status;
@@ -285,13 +382,15 @@ tell(struct job *job, const char *path, struct spec_error *error)
 {
 	int curve = spec_kind_is_curve(path);
 
-	if (curve && (job->check || job->probes > 0))
+	if (curve && (job->check || job->probes > 0 || job->patches))
 		return spec_error_set(error, SPEC_EUSAGE,
 			"'%s' is a curve, and %s is for images", path,
-			job->check ? "--check" : "--probe");
+			job->check     ? "--check"
+			: job->patches ? "--patches"
+				       : "--probe");
 	if (job->check)
 		return check_image(job, path, error);
-	if (job->probes > 0)
+	if (job->probes > 0 || job->patches)
 		return probe_image(job, path, error);
 	return curve ? tell_curve(job, path, error) : tell_image(job, path, error);
 }
@@ -350,6 +449,8 @@ main(int argc, char **argv)
 	spec_text_free(&job.text);
 	spec_probe_free(job.probe, job.probes);
 	free(job.probe);
+	spec_regions_free(&job.regions);
+	spec_viewing_free(&job.viewing);
 	free((void *)job.input);
 	return code;
 }

@@ -239,6 +239,13 @@ spec_appearance_json(struct spec_json *json, const struct spec_appearance *appea
 	spec_json_number(json, "outside", appearance->outside);
 }
 
+/* What rounds to 0 in so many decimals is 0, without a sign. */
+static double
+rounded(double value, double half)
+{
+	return fabs(value) < half ? 0 : value;
+}
+
 void
 spec_appearance_print(
 	FILE *stream, const char *lead, const struct spec_appearance *appearance)
@@ -252,11 +259,12 @@ spec_appearance_print(
 		fprintf(stream, "%s%-13s %.5f %.5f, u'v' %.5f %.5f\n", lead, "xy", a->xy[0],
 			a->xy[1], a->uv[0], a->uv[1]);
 	if (isfinite(a->lab[0]))
-		fprintf(stream, "%s%-13s %.3f %.3f %.3f\n", lead, "Lab", a->lab[0],
-			a->lab[1], a->lab[2]);
+		fprintf(stream, "%s%-13s %.3f %.3f %.3f\n", lead, "Lab",
+			rounded(a->lab[0], 5e-4), rounded(a->lab[1], 5e-4),
+			rounded(a->lab[2], 5e-4));
 	if (isfinite(a->cct_k))
 		fprintf(stream, "%s%-13s %.1f K, Duv %.5f\n", lead, "temperature", a->cct_k,
-			a->duv);
+			rounded(a->duv, 5e-6));
 	if (isfinite(a->dominant_nm))
 		fprintf(stream, "%s%-13s %.2f nm, purity %.4f\n", lead,
 			a->dominant_nm < 0 ? "complementary" : "dominant",

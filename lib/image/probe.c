@@ -7,6 +7,8 @@
 
 #include "base/memory.h"
 #include "base/number.h"
+#include "base/text.h"
+#include "image/rgb.h"
 #include "image/value.h"
 
 #define MOST_PIXELS (1 << 30) /* of a side: as far as the windows of files may reach */
@@ -31,7 +33,8 @@ spec_probe_parse(const char *text, struct spec_probe *probe, struct spec_error *
 		status = spec_number_parse_whole(
 			comma + 1, 0, MOST_PIXELS, "the pixel's Y", &y, error);
 	if (status == SPEC_OK)
-		*probe = (struct spec_probe){.x = (size_t)x, .y = (int)y};
+		*probe = (struct spec_probe){
+			.x = (size_t)x, .width = 1, .y = (int)y, .height = 1};
 	return status;
 }
 
@@ -128,8 +131,113 @@ spec_probe_read(struct spec_probe *probe, size_t probes, struct spec_reader *rea
 void
 spec_probe_free(struct spec_probe *probe, size_t probes)
 {
-	for (size_t i = 0; i < probes; i++)
+	for (size_t i = 0; i < probes; i++) {
+		free(probe[i].name);
 		free(probe[i].value);
+	}
+}
+
+/* XYZ by one observer: the sums that are spec2rgb's, to a space whose RGB are XYZ. */
+static enum spec_status
+plan_observer(struct spec_rgb *plan, const struct spec_image *image,
+	const struct spec_curve *observer, const struct spec_curve *illuminant,
+	struct spec_error *error)
+{
+	static const struct spec_space xyz = {.name = "xyz",
+		.title = "XYZ",
+		.red_xy = {1, 0},
+		.green_xy = {0, 1},
+		.blue_xy = {0, 0},
+		.white_xy = {1. / 3, 1. / 3}};
+	struct spec_rgb_setup setup = {.observer = observer,
+		.illuminant = illuminant,
+		.adaptation = SPEC_ADAPTATION_NONE,
+		.space = &xyz};
+
+	return spec_rgb_plan(plan, image, &setup, error);
+}
+
+static void
+sum_terms(const struct spec_rgb *plan, const double *value, double xyz[3])
+{
+	for (size_t c = 0; c < 3; c++) {
+		xyz[c] = 0;
+		for (size_t i = 0; i < plan->terms; i++)
+			xyz[c] +=
+				plan->weight[c * plan->terms + i] * value[plan->channel[i]];
+	}
+}
+
+/* What the image's samples are, or SPEC_ENOMEM. */
+static enum spec_status
+find_seen(const struct spec_image *image, enum spec_seen *seen, struct spec_error *error)
+{
+	char *quantity = spec_image_quantity(image, error);
+
+	if (!quantity)
+		return SPEC_ENOMEM;
+	*seen = SPEC_SEEN_REFLECTED;
+	if (image->role == SPEC_ROLE_EMISSIVE)
+		*seen = spec_seen_of(quantity, "") == SPEC_SEEN_RADIANCE
+				? SPEC_SEEN_RADIANCE
+				: SPEC_SEEN_LIGHT;
+	free(quantity);
+	return SPEC_OK;
+}
+
+static enum spec_status
+see_all(struct spec_probe *probe, size_t probes, const struct spec_rgb *observed,
+	const struct spec_rgb *standard, const struct spec_viewing *viewing,
+	enum spec_seen seen, struct spec_error *error)
+{
+	for (size_t i = 0; i < probes; i++) {
+		double xyz[3], standard_xyz[3];
+		enum spec_status status;
+
+		sum_terms(observed, probe[i].value, xyz);
+		sum_terms(standard, probe[i].value, standard_xyz);
+		status = spec_appearance_find(
+			viewing, seen, xyz, standard_xyz, &probe[i].seen, error);
+		if (status != SPEC_OK)
+			return status;
+		probe[i].seen.outside = observed->outside;
+	}
+	return SPEC_OK;
+}
+
+enum spec_status
+spec_probe_see(struct spec_probe *probe, size_t probes, const struct spec_reader *reader,
+	const struct spec_viewing *viewing, struct spec_error *error)
+{
+	const struct spec_image *image = spec_reader_image(reader);
+	struct spec_rgb observed = {0}, standard = {0};
+	struct spec_error why = {0};
+	enum spec_seen seen;
+	enum spec_status status;
+
+	for (size_t i = 0; i < probes; i++)
+		spec_appearance_clear(&probe[i].seen);
+	if (image->bands == 0)
+		return SPEC_OK;
+	status = find_seen(image, &seen, error);
+	if (status == SPEC_OK) {
+		status = plan_observer(
+			&observed, image, &viewing->observer, &viewing->illuminant, &why);
+		if (status == SPEC_OK)
+			status = plan_observer(&standard, image, &viewing->standard,
+				&viewing->illuminant, &why);
+		if (status == SPEC_OK)
+			status = see_all(
+				probe, probes, &observed, &standard, viewing, seen, &why);
+		/* Bands that nobody sees have no appearance, and that is no fault. */
+		if (status == SPEC_ENOMEM && error)
+			*error = why;
+		else
+			status = SPEC_OK;
+	}
+	spec_rgb_free(&observed);
+	spec_rgb_free(&standard);
+	return status;
 }
 
 /* With the fewest digits that read back as the same sample. */
@@ -139,7 +247,7 @@ print_sample(FILE *stream, const struct spec_channel *channel, double value)
 	char text[32];
 	int digits = 6;
 
-	if (channel->sample == SPEC_SAMPLE_UINT) {
+	if (channel->sample == SPEC_SAMPLE_UINT && value == floor(value)) {
 		fprintf(stream, " %.0f", value);
 		return;
 	}
@@ -169,13 +277,48 @@ print_foreign(FILE *stream, const struct spec_image *image, const struct spec_pr
 }
 
 static void
+print_name(FILE *stream, const struct spec_probe *probe)
+{
+	if (probe->name)
+		spec_value_print_text(stream, probe->name, strlen(probe->name));
+	else
+		fprintf(stream, "x%zuy%d", probe->x, probe->y);
+}
+
+/* The lines begin with the name, as those of other things do with theirs. */
+static enum spec_status
+print_seen(FILE *stream, const struct spec_probe *probe, size_t probes,
+	struct spec_error *error)
+{
+	for (size_t j = 0; j < probes; j++) {
+		struct spec_text lead = {0};
+		enum spec_status status = spec_text_open(&lead, error);
+
+		if (status == SPEC_OK) {
+			fputs("# ", lead.stream);
+			print_name(lead.stream, &probe[j]);
+			fputc(' ', lead.stream);
+			fputc('\0', lead.stream);
+			status = spec_text_close(&lead, error);
+		}
+		if (status == SPEC_OK)
+			spec_appearance_print(stream, lead.bytes, &probe[j].seen);
+		spec_text_free(&lead);
+		if (status != SPEC_OK)
+			return status;
+	}
+	return SPEC_OK;
+}
+
+static void
 print_columns(FILE *stream, const struct spec_image *image, const struct spec_probe *probe,
 	size_t probes)
 {
 	fputs("# columns: wavelength_nm", stream);
 	for (size_t j = 0; j < probes; j++) {
 		for (int k = 0; k < image->stokes; k++) {
-			fprintf(stream, " x%zuy%d", probe[j].x, probe[j].y);
+			fputc(' ', stream);
+			print_name(stream, &probe[j]);
 			if (image->stokes > 1)
 				fprintf(stream, "S%d", k);
 		}
@@ -209,6 +352,7 @@ spec_probe_print(FILE *stream, const struct spec_reader *reader,
 	const struct spec_image *image = spec_reader_image(reader);
 	const char *name = spec_reader_name(reader);
 	char *quantity = spec_image_quantity(image, error);
+	enum spec_status status;
 
 	if (!quantity)
 		return SPEC_ENOMEM;
@@ -221,6 +365,9 @@ spec_probe_print(FILE *stream, const struct spec_reader *reader,
 	fputc('\n', stream);
 	free(quantity);
 	print_foreign(stream, image, probe, probes);
+	status = print_seen(stream, probe, probes, error);
+	if (status != SPEC_OK)
+		return status;
 	if (image->bands > 0)
 		print_columns(stream, image, probe, probes);
 	print_bands(stream, image, probe, probes);
@@ -238,14 +385,29 @@ put_sample(struct spec_json *json, const char *key, const struct spec_channel *c
 }
 
 static void
+put_place(struct spec_json *json, const struct spec_probe *probe)
+{
+	if (!probe->name) {
+		spec_json_whole(json, "x", (long long)probe->x);
+		spec_json_whole(json, "y", probe->y);
+		return;
+	}
+	spec_json_text(json, "name", probe->name);
+	spec_json_whole(json, "x0", (long long)probe->x);
+	spec_json_whole(json, "y0", probe->y);
+	spec_json_whole(json, "x1", (long long)(probe->x + probe->width));
+	spec_json_whole(json, "y1", (long long)probe->y + probe->height);
+}
+
+static void
 put_pixel(struct spec_json *json, const struct spec_image *image,
 	const struct spec_probe *probe)
 {
 	static const char *const components[] = {"S0", "S1", "S2", "S3"};
 
 	spec_json_open(json, NULL, '{', SPEC_JSON_LINES);
-	spec_json_whole(json, "x", (long long)probe->x);
-	spec_json_whole(json, "y", probe->y);
+	put_place(json, probe);
+	spec_appearance_json(json, &probe->seen);
 	for (int k = 0; k < image->stokes && image->bands > 0; k++) {
 		spec_json_open(json,
 			image->role == SPEC_ROLE_EMISSIVE ? components[k] : "T", '[',
@@ -283,7 +445,8 @@ spec_probe_json(struct spec_json *json, const struct spec_reader *reader,
 	spec_json_text(json, "file", spec_reader_name(reader));
 	spec_json_text(json, "quantity", image->bands > 0 ? quantity : NULL);
 	spec_json_numbers(json, "wavelength_nm", image->wavelength_nm, image->bands);
-	spec_json_open(json, "pixels", '[', SPEC_JSON_LINES);
+	spec_json_open(json, probes > 0 && probe->name ? "patches" : "pixels", '[',
+		SPEC_JSON_LINES);
 	for (size_t i = 0; i < probes; i++)
 		put_pixel(json, image, &probe[i]);
 	spec_json_close(json);

@@ -74,7 +74,8 @@ spec_summary_print(FILE *stream, const char *name, const struct spec_curve *curv
 }
 
 void
-spec_summary_json(struct spec_json *json, const char *name, const struct spec_curve *curve)
+spec_summary_json_open(
+	struct spec_json *json, const char *name, const struct spec_curve *curve)
 {
 	double step_nm = spec_grid_step(curve->wavelength_nm, curve->count);
 	size_t lowest, highest;
@@ -106,6 +107,5 @@ spec_summary_json(struct spec_json *json, const char *name, const struct spec_cu
 		spec_json_number(json, "max_nm", curve->wavelength_nm[highest]);
 		spec_json_close(json);
 	}
-	spec_json_close(json);
 	spec_json_close(json);
 }

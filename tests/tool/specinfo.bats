@@ -334,7 +334,7 @@ light_of() {
 # The ramp is ((x + 1) * 0.001 + y * 0.01) + band * 0.1, as floats.
 @test "--probe prints the spectrum of pixels, which is a curve" {
   spectral a.exr --grid 400:500:50 --extra A --uint id --data=-3,5
-  [ "$(specinfo --probe 2,1 -p 0,7 a.exr)" = '# title: a.exr
+  [ "$(specinfo --probe 2,1 -p 0,7 a.exr | grep -v '^# x')" = '# title: a.exr
 # quantity: radiance per nm
 # channel A: 0.313 0.371
 # channel id: 65538 458752
@@ -384,6 +384,150 @@ light_of() {
   [[ $stderr = *'a.exr: the pixel 16,0 is outside of its 16 x 8' ]] || complain "$stderr"
   fails_cleanly specinfo --probe 0,0 --check a.exr
   fails_cleanly specinfo --probe 0,0 D65
+}
+
+# Rectangles
+
+@test "--patches: means over rectangles of a file, in any order, overlapping" {
+  spectral a.exr --grid 400:500:50 --extra A --uint id --data=-3,5
+  printf '%s\n' '# name x0 y0 x1 y1' '' 'low 2 1 6 5' $'  all\t0 0 16 8\r' 'one 3 7 4 8' >rectangles
+  # The mean of x + 1 is 4.5, of y 2.5; of all 8.5 and 3.5.
+  holds '(.patches | map(.name) == ["low", "all", "one"]) and (.patches[0] | .x0 == 2 and .y0 == 1 and .x1 == 6 and .y1 == 5) and
+    ([.patches[0].S0, [0.0295, 0.1295, 0.2295], .patches[1].S0, [0.0435, 0.1435, 0.2435]] | [.[0][0] - .[1][0], .[0][2] - .[1][2], .[2][1] - .[3][1]] | map(fabs) | max < 1e-8) and
+    .patches[0].channels.id == null and .patches[2].channels.id == 458755 and (.patches[1].channels.A - 0.3435 | fabs < 1e-7)' \
+    specinfo --json --patches rectangles a.exr
+  specinfo --patches rectangles a.exr | grep -qx '# columns: wavelength_nm low all one'
+  diff <(specinfo --patches rectangles a.exr | grep -v '^#' | cut -d ' ' -f 1,4) <(specinfo -p 3,7 a.exr | grep -v '^#')
+  value '.patches[2] | del(.name, .x0, .x1, .y0, .y1)' specinfo --json --patches rectangles a.exr >one
+  [ "$(value '.pixels[0] | del(.x, .y)' specinfo --json -p 3,7 a.exr)" = "$(cat one)" ]
+}
+
+@test "--patches: the same bits from pipes, tiles, every compression and number of threads" {
+  spectral a.exr --size 50x70 --grid 400:700:10 --pattern noise --compression none
+  printf '%s\n' 'a 1 60 49 70' 'b 0 9 50 33' 'c 7 10 8 69' >rectangles
+  specinfo --patches rectangles -j 1 a.exr | tail -n +2 >wanted
+  for compression in zip piz; do
+    specconvert --compression $compression a.exr -o b.exr
+    specinfo --patches rectangles -j 5 b.exr | tail -n +2 | diff wanted -
+  done
+  specinfo --patches rectangles -j 3 - < <(cat a.exr) | tail -n +2 | diff wanted -
+}
+
+@test "--patches of a chart: the middle of each patch, called by its number" {
+  mapfile -t names < <(cd "$ROOT/spectra/reflectance/colorchecker" && printf '%s\n' *.spd)
+  specconvert -g 380:730:5 --patches 6x4 --patch 8 -o card.exr "${names[@]%.spd}"
+  holds '(.patches | length == 24) and (.patches[7] | .name == "8" and .x0 == 10 and .x1 == 14 and .y0 == 10 and .y1 == 14)' \
+    specinfo --json --patches 6x4 card.exr
+  # Floats hold six digits of the curve.
+  for patch in 1 15 19 24; do
+    jq -n --slurpfile card printed.json --argjson curve \
+      "$(specconvert -g 380:730:5 "${names[patch - 1]%.spd}" | specinfo --json -)" --argjson i $((patch - 1)) \
+      '[$card[0].patches[$i].Lab, $curve.Lab] | transpose | map(.[0] - .[1] | fabs) | max < 1e-4' | grep -qx true
+  done
+  # The ColorChecker's Lab under D50, BabelColor's mean of 30 charts 2005: 96.539 -0.425 1.186.
+  holds '[.patches[18].Lab, [96.539, -0.425, 1.186]] | transpose | map(.[0] - .[1] | . * .) | add < 4' \
+    specinfo --json --illuminant D50 --patches 6x4 card.exr
+  fails_cleanly specinfo --patches 49x4 card.exr
+  fails_cleanly specinfo --patches 0x4 card.exr
+  fails_cleanly specinfo --patches 999x999 card.exr
+}
+
+@test "--patches that are wrong" {
+  spectral a.exr
+  fails_cleanly specinfo --patches nothing a.exr
+  [[ $stderr = *nothing:* ]] || complain "$stderr"
+  for line in 'a 0 0 1' 'a 0 0 1 1 1' 'a 1 0 1 1' 'a 0 2 1 1' 'a -1 0 1 1' 'a 0 0 1.5 1' 'a 0 0 x 1' 'a 0 0 99999999999 1' '' $'a 0 0 1 1\na 0 0 2 2'; do
+    printf '%s\n' "$line" >rectangles
+    fails_cleanly specinfo --patches rectangles a.exr
+    [[ $stderr = *rectangles:* ]] || complain "$stderr"
+  done
+  printf 'a 0 0 1 1\nb 0 0\n' >rectangles
+  fails_cleanly specinfo --patches rectangles a.exr
+  [[ $stderr = *'rectangles: line 2: '* ]] || complain "$stderr"
+  printf 'a 0 0 1\0 1\n' >rectangles
+  fails_cleanly specinfo --patches rectangles a.exr
+  fails_cleanly specinfo --patches . a.exr
+  for line in 'far 0 0 17 8' 'far 0 0 16 9' 'far 16 0 17 1'; do
+    echo "$line" >rectangles
+    fails_cleanly specinfo --patches rectangles a.exr
+    [[ $stderr = *"a.exr: 'far' reaches outside of its 16 x 8"* ]] || complain "$stderr"
+  done
+  echo 'a 0 0 1 1' >rectangles
+  fails_cleanly specinfo --patches rectangles D65
+  fails_cleanly specinfo --patches rectangles --probe 0,0 a.exr
+  fails_cleanly specinfo --patches rectangles -s a.exr
+  head -c 3000 a.exr >short.exr
+  echo 'a 0 0 16 8' >rectangles
+  fails_cleanly specinfo --patches rectangles short.exr
+}
+
+# Colours
+
+# about FILTER NUMBER TOLERANCE COMMAND...: what jq finds is that number.
+about() {
+  local filter=$1 number=$2 tolerance=$3
+  shift 3
+  holds "$filter - $number | fabs <= $tolerance" "$@"
+}
+
+# Numbers of CIE 15:2004, table T.3 (X, Z: ASTM E308), and of lamps T.8.1.
+@test "colours of lights" {
+  about '.XYZ[0]' 95.047 0.005 specinfo --json D65
+  about '.XYZ[1]' 100 1e-9 specinfo --json D65
+  about '.XYZ[2]' 108.883 0.005 specinfo --json D65
+  about '.xy[0]' 0.31272 2e-5 specinfo --json D65
+  about '.xy[1]' 0.32903 2e-5 specinfo --json D65
+  about .cct 6504 2 specinfo --json D65
+  about .duv 0.0032 5e-5 specinfo --json D65
+  about .cct 2856 1 specinfo --json A
+  about .duv 0 2e-5 specinfo --json A
+  about .cct 4230 15 specinfo --json F2
+  holds '.luminance == null and .Lab[0] == 100 and .outside == 0' specinfo --json D65
+  holds '.purity == 0 and .dominant_nm == null' specinfo --json E
+  holds '(.purity < 1e-3) and (.Lab | map(fabs) | .[1:] | max < 1e-9)' specinfo --json --illuminant A A
+  about '.xy[0]' 0.31381 2e-5 specinfo --json --observer 1964 D65
+  about '.xy[1]' 0.33098 2e-5 specinfo --json --observer 1964 D65
+  value '[.cct, .duv]' specinfo --json --observer 1964 D65 >wide
+  [ "$(value '[.cct, .duv]' specinfo --json D65)" = "$(cat wide)" ]
+  specinfo D65 | grep -qxE '  temperature   650[2-4]\.[0-9] K, Duv 0.0032[0-9]'
+}
+
+@test "colours of reflectance, of several columns, of what has none" {
+  about '.XYZ[1]' 14.343 0.001 specinfo --json reflectance/cornell-red
+  holds '.cct == null and .luminance == null and .dominant_nm > 600' specinfo --json reflectance/cornell-red
+  holds '.dominant_nm < -490 and .dominant_nm > -570' specinfo --json 17-magenta
+  specinfo 17-magenta | grep -qE '^  complementary 5[0-9]{2}\.[0-9]{2} nm, purity 0\.'
+  printf '%s\n' '# quantity: reflectance' '# columns: wavelength_nm half none' '360 .5 0' '830 .5 0' >two.spd
+  holds '.XYZ == null and (.colours | length == 2) and (.colours[0].XYZ[1] - 50 | fabs < 1e-9) and .colours[0].purity < 1e-9 and
+    .colours[1].XYZ == [0, 0, 0] and .colours[1].xy == null and .colours[1].Lab == [0, 0, 0]' specinfo --json two.spd
+  [ "$(specinfo two.spd | grep -c '^  XYZ ')" -eq 2 ]
+  printf '%s\n' '900 1' '1000 2' >infrared.spd
+  printf '%s\n' '# quantity: refractive index' '360 1.5' '830 1.4' >index.spd
+  for curve in infrared.spd index.spd; do
+    holds 'has("XYZ") and has("luminance") and
+      ([.XYZ, .xy, .Lab, .cct, .duv, .dominant_nm, .purity, .luminance] | unique == [null])' specinfo --json $curve
+  done
+  fails_cleanly specinfo --observer Au D65
+  fails_cleanly specinfo --illuminant Au D65
+  fails_cleanly specinfo --illuminant infrared.spd D65
+  fails_cleanly specinfo --observer nobody D65
+}
+
+# 683 lm/W times the integral of ybar, 106.857 nm (CIE 15), for a radiance of 100 per nm.
+@test "colours of pixels: luminance, XYZ in cd/m2, and none where nothing is seen" {
+  specconvert -g 360:830:5 --patches 1x1 -o light.exr E
+  about '.pixels[0].luminance' 7298333 100 specinfo --json -p 0,0 light.exr
+  holds '.pixels[0] | (.XYZ[1] - .luminance | fabs < 1e-3) and .purity < 1e-6' specinfo --json -p 0,0 light.exr
+  specinfo -p 0,0 light.exr | grep -qxE '# x0y0 luminance     7\.2983[0-9]*e\+06 cd/m\^2'
+  spectral n.exr --grid 400:700:50 --pattern nan:1,0,1
+  holds '[.pixels[0] | .XYZ, .xy, .Lab, .cct, .duv, .dominant_nm, .purity, .luminance] | unique == [null]' specinfo --json -p 1,0 n.exr
+  spectral infrared.exr --grid 900:1000:50
+  holds '.pixels[0].XYZ == null and .pixels[0].S0 != null' specinfo --json -p 1,0 infrared.exr
+  # XYZ of what is reradiated, too: more than that of the diagonal alone.
+  spectral b.exr --channel T.450nm --channel T.550nm --channel T.650nm --channel T.450nm.550nm
+  spectral d.exr --channel T.450nm --channel T.550nm --channel T.650nm
+  jq -n --argjson with "$(specinfo --json -p 5,5 b.exr)" --argjson without "$(specinfo --json -p 5,5 d.exr)" \
+    '$with.pixels[0].XYZ[1] > $without.pixels[0].XYZ[1] + 1' | grep -qx true
 }
 
 # Other programs' files, as exrheader sees them
