@@ -1,5 +1,4 @@
 /* specdiff - how far apart two spectral images are; see specdiff(1). */
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,7 +9,7 @@
 #include "cli/options.h"
 #include "cli/progress.h"
 #include "colour/observer.h"
-#include "compare/images.h"
+#include "compare/report.h"
 #include "spectrum/lookup.h"
 
 #define EXIT_DIFFERENT 1
@@ -18,12 +17,24 @@
 static const struct cli_option options[] = {
 	{'m', "metric", "NAME,...",
 		"print these: rmse max sam sam-max psnr gfc gfc-min de2000\n"
-		"de2000-max (default: all)"},
+		"de2000-max (default: these nine) mae relative energy sid\n"
+		"sid-max de76 de76-max de94 de94-max, percentiles such as\n"
+		"de2000-p95, or all"},
 	{'t', "tolerance", "NAME=VALUE",
 		"differ only beyond this; may be given several times"},
-	{0, "observer", "1931|1964|2015-2|2015-10|SPD", "for de2000 (default: 1931)"},
-	{0, "illuminant", "SPD", "for de2000 of reflectance (default: D65)"},
-	{'e', "exposure", "EV", "for de2000 of light: 2^-EV is white (default: 0)"},
+	{0, "exact", NULL, "differ where any bit of a sample does"},
+	{0, "bands", NULL, "print rmse, mae and max of each band"},
+	{0, "json", NULL, "print as JSON"},
+	{0, "resample", NULL, "compare different grids over their overlap"},
+	{0, "crop", "X0,Y0,X1,Y1", "compare these pixels of the data window alone"},
+	{0, "mask", "CHANNEL|FILE",
+		"compare where this is not 0: CHANNEL, CHANNEL=N, FILE,\n"
+		"FILE:CHANNEL, FILE:CHANNEL=N"},
+	{0, "observer", "1931|1964|2015-2|2015-10|SPD",
+		"for colour differences (default: 1931)"},
+	{0, "illuminant", "SPD", "for colour differences of reflectance (default: D65)"},
+	{'e', "exposure", "EV",
+		"for colour differences of light: 2^-EV is white (default: 0)"},
 	{0, "peak", "VALUE", "of psnr (default: the largest magnitude in the first)"},
 	{0},
 };
@@ -37,61 +48,61 @@ static const struct cli_program program = {
 	.options = options,
 };
 
-struct metric {
-	const char *name, *unit;
-	int larger_is_better, angular, colour;
-};
-
-static const struct metric metrics[] = {
-	{"rmse", "", 0, 0, 0},
-	{"max", "", 0, 0, 0},
-	{"sam", " rad", 0, 1, 0},
-	{"sam-max", " rad", 0, 1, 0},
-	{"psnr", " dB", 1, 0, 0},
-	{"gfc", "", 1, 1, 0},
-	{"gfc-min", "", 1, 1, 0},
-	{"de2000", "", 0, 0, 1},
-	{"de2000-max", "", 0, 0, 1},
-};
-
-enum { METRICS = sizeof metrics / sizeof metrics[0] };
-
 struct job {
 	const char *input[2];
 	int inputs;
-	int chosen[METRICS], any_chosen;
-	double tolerance[METRICS];
-	int judged[METRICS], any_judged;
-	const char *observer, *illuminant;
-	double exposure, peak;
+	struct spec_report report;
+	int any_chosen, json;
+	const char *observer, *illuminant, *mask_text;
+	struct spec_matte mask;
+	struct spec_reader *mask_reader;
+	struct spec_window crop;
+	struct spec_images_setup setup;
 	struct spec_settings settings;
 };
 
+/* The metric of that name in the report's list, where percentiles come as they are named. */
 static enum spec_status
-find_metric(const char *name, size_t length, size_t *index, struct spec_error *error)
+find_metric(struct job *job, const char *name, size_t length,
+	struct spec_report_metric **found, struct spec_error *error)
 {
-	for (*index = 0; *index < METRICS; (*index)++) {
-		if (strlen(metrics[*index].name) == length &&
-			memcmp(metrics[*index].name, name, length) == 0)
+	struct spec_report *report = &job->report;
+	struct spec_metric metric;
+	enum spec_status status = spec_metric_find(name, length, &metric, error);
+
+	if (status != SPEC_OK)
+		return status;
+	for (size_t i = 0; i < report->metrics; i++) {
+		*found = &report->metric[i];
+		if (strcmp((*found)->metric.name, metric.name) == 0)
 			return SPEC_OK;
 	}
-	return spec_error_set(error, SPEC_EUSAGE, "unknown metric '%.*s' (try --help)",
-		(int)(length < 64 ? length : 64), name);
+	if (report->metrics == SPEC_REPORT_MOST_METRICS)
+		return spec_error_set(error, SPEC_EUSAGE, "more than %d metrics",
+			SPEC_REPORT_MOST_METRICS);
+	*found = &report->metric[report->metrics++];
+	(*found)->metric = metric;
+	return SPEC_OK;
 }
 
 static enum spec_status
 take_metrics(struct job *job, const char *text, struct spec_error *error)
 {
 	enum spec_status status = SPEC_OK;
-	size_t index;
+	struct spec_report_metric *metric;
 
 	job->any_chosen = 1;
 	while (status == SPEC_OK) {
 		size_t length = strcspn(text, ",");
 
-		status = find_metric(text, length, &index, error);
-		if (status == SPEC_OK)
-			job->chosen[index] = 1;
+		if (length == 3 && strncmp(text, "all", 3) == 0) {
+			for (size_t i = 0; i < SPEC_METRICS_NAMED; i++)
+				job->report.metric[i].shown = 1;
+		} else {
+			status = find_metric(job, text, length, &metric, error);
+			if (status == SPEC_OK)
+				metric->shown = 1;
+		}
 		if (text[length] == '\0')
 			break;
 		text += length + 1;
@@ -102,16 +113,17 @@ take_metrics(struct job *job, const char *text, struct spec_error *error)
 static enum spec_status
 take_tolerance(struct job *job, const char *text, struct spec_error *error)
 {
-	size_t length = strcspn(text, "="), index;
-	enum spec_status status = find_metric(text, length, &index, error);
+	struct spec_report_metric *metric;
+	size_t length = strcspn(text, "=");
+	enum spec_status status = find_metric(job, text, length, &metric, error);
 
 	if (status != SPEC_OK)
 		return status;
 	if (text[length] == '\0')
 		return spec_error_set(error, SPEC_EUSAGE, "'%s' is not NAME=VALUE", text);
-	job->judged[index] = job->any_judged = 1;
-	return spec_number_parse(text + length + 1, 0, 1e300, "the tolerance",
-		&job->tolerance[index], error);
+	metric->judged = 1;
+	return spec_number_parse(
+		text + length + 1, 0, 1e300, "the tolerance", &metric->tolerance, error);
 }
 
 static enum spec_status
@@ -122,6 +134,23 @@ take_image(struct job *job, const char *path, struct spec_error *error)
 			"two images at a time: '%s' is one too many", path);
 	job->input[job->inputs++] = path;
 	return SPEC_OK;
+}
+
+/* Options without a value. */
+static int
+take_flag(struct job *job, const char *name)
+{
+	if (strcmp(name, "exact") == 0)
+		job->setup.exact = job->report.exact = 1;
+	else if (strcmp(name, "bands") == 0)
+		job->setup.want_bands = job->report.shows_bands = 1;
+	else if (strcmp(name, "resample") == 0)
+		job->setup.resample = 1;
+	else if (strcmp(name, "json") == 0)
+		job->json = 1;
+	else
+		return 0;
+	return 1;
 }
 
 static enum spec_status
@@ -138,15 +167,21 @@ take(void *state, const char *name, const char *value, struct spec_error *error)
 		return take_tolerance(job, value, error);
 	if (strcmp(name, "exposure") == 0)
 		return spec_number_parse(
-			value, -100, 100, "the exposure", &job->exposure, error);
+			value, -100, 100, "the exposure", &job->setup.exposure, error);
 	if (strcmp(name, "peak") == 0)
 		return spec_number_parse(
-			value, 1e-300, 1e300, "the peak", &job->peak, error);
+			value, 1e-300, 1e300, "the peak", &job->report.peak, error);
+	if (strcmp(name, "crop") == 0) {
+		job->setup.crop = &job->crop;
+		return spec_settings_crop(value, &job->crop, error);
+	}
 	if (strcmp(name, "observer") == 0)
 		job->observer = value;
 	else if (strcmp(name, "illuminant") == 0)
 		job->illuminant = value;
-	else
+	else if (strcmp(name, "mask") == 0)
+		job->mask_text = value;
+	else if (!take_flag(job, name))
 		return spec_settings_take(&job->settings, name, value, &known, error);
 	return SPEC_OK;
 }
@@ -154,162 +189,60 @@ take(void *state, const char *name, const char *value, struct spec_error *error)
 static void
 parse(struct cli *cli, struct job *job)
 {
+	struct spec_report *report = &job->report;
+
 	spec_settings_init(&job->settings);
+	report->metrics = SPEC_METRICS_NAMED;
+	for (size_t i = 0; i < SPEC_METRICS_NAMED; i++)
+		report->metric[i].metric = spec_metrics[i];
 	cli_take_each(cli, take, job);
 	if (job->inputs < 2)
 		cli_usage(cli, "two images are needed (try --help)");
 	if (strcmp(job->input[0], "-") == 0 && strcmp(job->input[1], "-") == 0)
 		cli_usage(cli, "only one of the images can come from standard input");
+	if (report->exact && job->setup.resample)
+		cli_usage(cli, "--exact and --resample exclude each other");
+	for (size_t i = 0; i < SPEC_METRICS_USUAL && !job->any_chosen; i++)
+		report->metric[i].shown = 1;
 }
 
-/* The largest difference of whole numbers, as they are. */
-static double
-whole_max(const struct spec_whole *whole)
-{
-	return fabs((double)whole->a - (double)whole->b);
-}
-
-/* The largest difference in any channel. */
-static double
-max_of(const struct spec_images *result)
-{
-	double most = whole_max(&result->whole);
-
-	if (result->bands > 0)
-		most = fmax(most, spec_measure_max(&result->spectral));
-	if (result->others.samples > 0)
-		most = fmax(most, spec_measure_max(&result->others));
-	return most;
-}
-
-static double
-value_of(const struct spec_images *result, size_t index, double peak)
-{
-	const struct spec_measure *spectral = &result->spectral;
-
-	switch (index) {
-	case 0:
-		return result->bands > 0 ? spec_measure_rmse(spectral) : 0;
-	case 1:
-		return max_of(result);
-	case 2:
-		return spec_measure_angle_mean(spectral);
-	case 3:
-		return spec_measure_angle_max(spectral);
-	case 4:
-		return spec_measure_psnr(spectral, peak);
-	case 5:
-		return spec_measure_fit_mean(spectral);
-	case 6:
-		return spec_measure_fit_min(spectral);
-	case 7:
-		return spec_measure_colour_mean(spectral);
-	default:
-		return spec_measure_colour_max(spectral);
-	}
-}
-
+/* What the metrics need; whether a colour difference was asked for by name. */
 static int
-applies(const struct spec_images *result, size_t index)
+plan(struct job *job)
 {
-	if (metrics[index].colour)
-		return result->coloured;
-	return result->bands > 0 || index <= 1;
-}
+	int named = 0;
 
-static void
-print_name(FILE *report, const struct spec_image *image, size_t channel)
-{
-	char name[256];
+	for (size_t i = 0; i < job->report.metrics; i++) {
+		const struct spec_report_metric *it = &job->report.metric[i];
+		int asked = (it->shown && job->any_chosen) || it->judged;
 
-	snprintf(name, sizeof name, "%s", image->channel[channel].name);
-	spec_error_plain(name);
-	fprintf(report, "'%s'", name);
-}
-
-static void
-print_sample(FILE *report, const struct spec_image *image, const struct spec_measure *worst)
-{
-	if (worst->nonfinite > 0) {
-		fprintf(report, " at %zu,%d in ", worst->nonfinite_first.x,
-			worst->nonfinite_first.y);
-		print_name(report, image, worst->nonfinite_first.band);
-		fprintf(report, ": %.9g and %.9g, the first of %llu that are not finite",
-			worst->nonfinite_a, worst->nonfinite_b,
-			(unsigned long long)worst->nonfinite);
-	} else if (worst->difference.value > 0) {
-		fprintf(report, " at %zu,%d in ", worst->difference.place.x,
-			worst->difference.place.y);
-		print_name(report, image, worst->difference.place.band);
-		fprintf(report, ": %.9g and %.9g", worst->difference_a,
-			worst->difference_b);
+		if (it->shown || it->judged)
+			spec_metric_need(&it->metric, &job->setup);
+		named |= asked && spec_metric_is_colour(&it->metric);
 	}
+	job->setup.peak = job->report.peak;
+	return named;
 }
 
-/* Where the largest difference is, and between what. */
-static void
-print_place(FILE *report, const struct spec_images *result, const struct spec_image *image)
+static enum spec_status
+open_mask(struct job *job, const struct spec_reader *first, struct spec_error *error)
 {
-	const struct spec_whole *whole = &result->whole;
-	double most = max_of(result);
+	enum spec_status status = spec_matte_read(&job->mask, job->mask_text,
+		spec_reader_image(first), spec_reader_name(first), error);
 
-	if (whole->differing > 0 && whole_max(whole) == most) {
-		fprintf(report, " at %zu,%d in ", whole->x, whole->y);
-		print_name(report, image, whole->channel);
-		fprintf(report, ": %u and %u", whole->a, whole->b);
-	} else if (result->others.samples > 0 &&
-		   spec_measure_max(&result->others) == most) {
-		print_sample(report, image, &result->others);
-	} else if (result->bands > 0) {
-		print_sample(report, image, &result->spectral);
-	}
-}
-
-static void
-print_pixel(FILE *report, const struct spec_measure_extreme *extreme)
-{
-	if (extreme->value > 0)
-		fprintf(report, " at %zu,%d", extreme->place.x, extreme->place.y);
-}
-
-static int
-print_metrics(FILE *report, const struct job *job, const struct spec_images *result,
-	const struct spec_image *image)
-{
-	/* What is not finite on one side, and another id, are beyond any tolerance. */
-	int different = result->spectral.nonfinite > 0 || result->others.nonfinite > 0 ||
-			result->whole.differing > 0;
-
-	for (size_t i = 0; i < METRICS; i++) {
-		double value;
-		int beyond;
-
-		if (!applies(result, i)) {
-			different |=
-				job->judged[i]; /* what cannot be measured is not within */
-			continue;
-		}
-		value = value_of(result, i, job->peak);
-		beyond = job->judged[i] &&
-			 !(metrics[i].larger_is_better ? value >= job->tolerance[i]
-						       : value <= job->tolerance[i]);
-		different |= beyond;
-		if (!job->any_chosen || job->chosen[i]) {
-			fprintf(report, "%-10s %.6g%s", metrics[i].name, value,
-				metrics[i].unit);
-			if (i == 1)
-				print_place(report, result, image);
-			else if (i == 3)
-				print_pixel(report, &result->spectral.angle_most);
-			else if (i == 8)
-				print_pixel(report, &result->spectral.colour_most);
-			fprintf(report, beyond ? " (beyond %g)\n" : "\n",
-				job->tolerance[i]);
-		}
-	}
-	if (!job->any_judged)
-		different = value_of(result, 1, 0) > 0;
-	return different;
+	job->setup.mask = &job->mask;
+	if (status != SPEC_OK || !job->mask.path)
+		return status;
+	if (strcmp(job->mask.path, "-") == 0 &&
+		(strcmp(job->input[0], "-") == 0 || strcmp(job->input[1], "-") == 0))
+		return spec_error_set(error, SPEC_EUSAGE,
+			"only one of the images can come from standard input");
+	status = spec_reader_open(&job->mask_reader, job->mask.path, &job->settings, error);
+	job->setup.mask_reader = job->mask_reader;
+	if (status != SPEC_OK)
+		return status;
+	return spec_matte_settle(&job->mask, spec_reader_image(job->mask_reader),
+		spec_reader_name(job->mask_reader), error);
 }
 
 static enum spec_status
@@ -317,53 +250,56 @@ compare(struct job *job, struct spec_reader *reader[2], struct spec_images *resu
 	struct spec_error *error)
 {
 	struct spec_curve observer = {0}, illuminant = {0};
-	struct spec_images_setup setup = {.exposure = job->exposure, .peak = job->peak};
 	enum spec_status status = SPEC_OK;
-	int named = 0; /* a colour difference was asked for */
+	int named = plan(job);
 
-	setup.want_angle = !job->any_chosen;
-	for (size_t i = 0; i < METRICS; i++) {
-		int asked = job->chosen[i] || job->judged[i];
-
-		named |= metrics[i].colour && asked;
-		setup.want_angle |= metrics[i].angular && asked;
-	}
-	setup.colour_optional = !named;
-	if (named || !job->any_chosen) {
+	job->setup.colour_optional = !named;
+	if (job->mask_text)
+		status = open_mask(job, reader[0], error);
+	if (status == SPEC_OK && (named || !job->any_chosen)) {
 		status = spec_observer_load(job->observer, &observer, error);
 		if (status == SPEC_OK && !spec_observer_is_xyz(&observer))
 			status = spec_error_set(error, SPEC_EUSAGE,
 				"observer '%.200s' has columns %.40s, %.40s, %.40s: "
-				"CIEDE2000 needs x, y, z",
+				"colour differences need x, y, z",
 				job->observer, observer.column[0], observer.column[1],
 				observer.column[2]);
 		if (status == SPEC_OK)
 			status = spec_lookup_light(job->illuminant, &illuminant, error);
-		setup.observer = &observer;
-		setup.illuminant = &illuminant;
+		job->setup.observer = &observer;
+		job->setup.illuminant = &illuminant;
 	}
 	if (status == SPEC_OK)
 		status = spec_images_compare(
-			result, reader[0], reader[1], &setup, &job->settings, error);
+			result, reader[0], reader[1], &job->setup, &job->settings, error);
 	spec_curve_free(&observer);
 	spec_curve_free(&illuminant);
 	return status;
 }
 
-/* The report appears whole or not at all; *different is what it says. */
+/* The report appears whole or not at all. */
 static enum spec_status
-print_report(const struct job *job, const struct spec_images *result,
-	const struct spec_image *image, int *different, struct spec_error *error)
+print_report(struct job *job, struct spec_reader *const *reader,
+	const struct spec_images *result, struct spec_error *error)
 {
+	struct spec_report *report = &job->report;
 	struct spec_text text;
-	enum spec_status status = spec_text_open(&text, error);
+	enum spec_status status;
 
+	report->result = result;
+	for (int i = 0; i < 2; i++) {
+		report->name[i] = spec_reader_name(reader[i]);
+		report->image[i] = spec_reader_image(reader[i]);
+	}
+	status = spec_report_judge(report, error);
+	if (status == SPEC_OK)
+		status = spec_text_open(&text, error);
 	if (status != SPEC_OK)
 		return status;
-	fputs(result->structure, text.stream);
-	*different = result->structure[0] != '\0';
-	if (result->comparable)
-		*different |= print_metrics(text.stream, job, result, image);
+	if (job->json)
+		spec_report_json(report, text.stream);
+	else
+		spec_report_text(report, text.stream);
 	status = spec_text_close(&text, error);
 	if (status == SPEC_OK)
 		status = spec_output_save(
@@ -375,15 +311,16 @@ print_report(const struct job *job, const struct spec_images *result,
 int
 main(int argc, char **argv)
 {
-	struct job job = {.observer = "1931", .illuminant = "illuminants/D65"};
+	static struct job job;
 	struct spec_error error = {0};
 	struct spec_reader *reader[2] = {NULL, NULL};
 	struct spec_images result;
 	struct cli_progress progress;
 	enum spec_status status;
-	int different = 0;
 	struct cli cli;
 
+	job.observer = "1931";
+	job.illuminant = "illuminants/D65";
 	cli_start(&cli, &program, argc, argv);
 	parse(&cli, &job);
 	cli_progress_start(&progress, "lines", job.settings.progress, job.settings.quiet);
@@ -398,11 +335,11 @@ main(int argc, char **argv)
 	cli_progress_end(&progress);
 	cli_check(&cli, status, &error);
 
-	cli_check(&cli,
-		print_report(
-			&job, &result, spec_reader_image(reader[0]), &different, &error),
-		&error);
+	cli_check(&cli, print_report(&job, reader, &result, &error), &error);
+	spec_images_free(&result);
 	spec_reader_close(reader[0]);
 	spec_reader_close(reader[1]);
-	return different ? EXIT_DIFFERENT : 0;
+	spec_reader_close(job.mask_reader);
+	spec_matte_free(&job.mask);
+	return job.report.different ? EXIT_DIFFERENT : 0;
 }

@@ -132,6 +132,13 @@ spec_json_bytes(struct spec_json *json, const char *key, const char *bytes, size
 }
 
 void
+spec_json_truth(struct spec_json *json, const char *key, int value)
+{
+	put_key(json, key);
+	fputs(value ? "true" : "false", json->stream);
+}
+
+void
 spec_json_null(struct spec_json *json, const char *key)
 {
 	put_key(json, key);

@@ -52,6 +52,7 @@ void spec_json_number(struct spec_json *json, const char *key, double value);
 void spec_json_float(struct spec_json *json, const char *key, float value);
 
 void spec_json_whole(struct spec_json *json, const char *key, long long value);
+void spec_json_truth(struct spec_json *json, const char *key, int value);
 void spec_json_null(struct spec_json *json, const char *key);
 
 /* An array of numbers, on one line. */

@@ -37,6 +37,18 @@ spec_difference_ab76(const double lab1[3], const double lab2[3])
 	return sqrt(l * l + a * a + b * b);
 }
 
+double
+spec_difference_cie94(const double lab1[3], const double lab2[3])
+{
+	double c1 = hypot(lab1[1], lab1[2]), c2 = hypot(lab2[1], lab2[2]);
+	double l = lab1[0] - lab2[0], a = lab1[1] - lab2[1], b = lab1[2] - lab2[2];
+	double c = (c1 - c2) / (1 + .045 * c1);
+	/* dH*^2 = da*^2 + db*^2 - dC*^2, which rounding takes below 0. */
+	double h = sqrt(fmax(a * a + b * b - (c1 - c2) * (c1 - c2), 0)) / (1 + .015 * c1);
+
+	return sqrt(l * l + c * c + h * h);
+}
+
 static double
 seventh_power(double c)
 {

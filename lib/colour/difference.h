@@ -17,6 +17,14 @@ void spec_lab_from_xyz(const double xyz[3], const double white[3], double lab[3]
 double spec_difference_ab76(const double lab1[3], const double lab2[3]);
 
 /*
+ * CIE94 colour difference of lab2 from the standard lab1, with kL = kC = kH = 1 and the
+ * reference conditions' S_C = 1 + 0.045 C1*, S_H = 1 + 0.015 C1*: not symmetric.
+ * Given:    lab1, lab2  CIELAB coordinates; a NaN gives NaN
+ * Source:   CIE 116-1995, Industrial colour-difference evaluation.
+ */
+double spec_difference_cie94(const double lab1[3], const double lab2[3]);
+
+/*
  * CIEDE2000 colour difference with kL = kC = kH = 1, symmetric in its arguments.
  * Given:    lab1, lab2  CIELAB coordinates, finite; a NaN gives NaN
  * Source:   Sharma, Wu, Dalal: The CIEDE2000 color-difference formula: implementation

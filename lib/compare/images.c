@@ -1,276 +1,171 @@
 #include "compare/images.h"
 
 #include <math.h>
-#include <stdarg.h>
-#include <stdio.h>
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/memory.h"
-#include "colour/observer.h"
+#include "compare/comparing.h"
 #include "image/stream.h"
 
-#define SAME_NM 1e-3 /* edges of bins closer than this are the same */
-
-/* The channels that are measured: A's and B's, pair by pair. */
-struct pairs {
-	size_t count;
-	size_t *a, *b;
-};
-
-struct comparison {
-	struct spec_images *result;
-	const struct spec_image *a, *b;
-	struct pairs bands, others;
-	struct spec_measure_setup spectral_setup, others_setup;
-	double *weight_xyz;
-};
-
-/* What a line's two measures are, as the stream carries them. */
+/* What a line's measures are, as the stream carries them; the bands' sums follow it. */
 struct row {
 	struct spec_measure spectral, others;
 	struct spec_whole whole;
+	struct spec_exact exact;
 };
 
-static void __attribute__((format(printf, 2, 3)))
-say(struct spec_images *result, const char *format, ...)
-{
-	static const char more[] = "... and more\n";
-	size_t length = strlen(result->structure), room = sizeof result->structure - length;
-	va_list arguments;
-	int wanted;
+/* A worker's room, cut out of its scratch. */
+struct room {
+	const float **plane; /* [2 * pairs]: A's, then B's */
+	size_t *pixel;       /* [width] that count */
+	float *samples;      /* [2 * bands * width], where rows are made */
+};
 
-	if (length >= sizeof more &&
-		strcmp(result->structure + length - sizeof more + 1, more) == 0)
-		return;
-	va_start(arguments, format);
-	wanted = vsnprintf(result->structure + length, room, format, arguments);
-	va_end(arguments);
-	spec_error_plain(
-		result->structure + length); /* of the line break too: put it back */
-	if (wanted > 0 && (size_t)wanted < room)
-		result->structure[length + wanted - 1] = '\n';
-	if (wanted < 0 || (size_t)wanted + sizeof more > room) /* whole lines or none */
-		strcpy(result->structure + length, more);
+struct mask {
+	int decoder;
+	size_t channel;
+	int y0;
+	const struct spec_matte *matte;
+	int whole; /* its bits are a whole number */
+};
+
+struct run {
+	struct spec_comparing comparing;
+	struct mask mask; /* matte is null: none */
+	size_t width;     /* of the region */
+	size_t planes;
+};
+
+static size_t
+round_up(size_t bytes)
+{
+	return (bytes + 63) / 64 * 64;
+}
+
+static struct room
+cut_room(const struct run *run, void *scratch)
+{
+	char *at = scratch;
+	struct room room;
+
+	room.plane = (const float **)(void *)at;
+	at += round_up(run->planes * sizeof *room.plane);
+	room.pixel = (size_t *)(void *)at;
+	at += round_up(run->width * sizeof *room.pixel);
+	room.samples = (float *)(void *)at;
+	return room;
+}
+
+static int
+makes_rows(const struct run *run)
+{
+	return run->mask.matte || run->comparing.sums[0].first;
+}
+
+static size_t
+room_bytes(const struct run *run)
+{
+	size_t rows = makes_rows(run) ? run->planes : 0;
+
+	return round_up(run->planes * sizeof(float *)) +
+	       round_up(run->width * sizeof(size_t)) + rows * run->width * sizeof(float);
+}
+
+/* The pixels of the line that count; returns how many. */
+static size_t
+choose_pixels(const struct run *run, const struct spec_stream_worker *worker, int line,
+	size_t *pixel)
+{
+	const struct mask *mask = &run->mask;
+	const float *row;
+	size_t count = 0;
+
+	if (!mask->matte) {
+		for (size_t x = 0; x < run->width; x++)
+			pixel[x] = x;
+		return run->width;
+	}
+	row = spec_decoder_row(worker->decoder[mask->decoder],
+		      mask->y0 + run->comparing.region.y0 + line, mask->channel) +
+	      run->comparing.region.x0;
+	for (size_t x = 0; x < run->width; x++) {
+		uint32_t number;
+
+		memcpy(&number, row + x, sizeof number);
+		if (mask->matte->equals ? number == mask->matte->number
+			: mask->whole   ? number != 0
+					: row[x] > 0)
+			pixel[count++] = x;
+	}
+	return count;
+}
+
+static const float *
+row_of(const struct run *run, const struct spec_stream_worker *worker, int side, int line,
+	size_t channel)
+{
+	const struct spec_image *image = side ? run->comparing.b : run->comparing.a;
+
+	return spec_decoder_row(worker->decoder[side],
+		       image->data.y0 + run->comparing.region.y0 + line, channel) +
+	       run->comparing.region.x0;
+}
+
+/* The samples of the pixels that count, of a channel as it is. */
+static const float *
+take_row(const struct run *run, const float *row, const size_t *pixel, size_t count,
+	float *samples)
+{
+	if (!run->mask.matte)
+		return row;
+	for (size_t i = 0; i < count; i++)
+		samples[i] = row[pixel[i]];
+	return samples;
+}
+
+/* The same of a sum of channels. */
+static const float *
+sum_row(const struct run *run, const struct spec_stream_worker *worker, int side, int line,
+	size_t band, const size_t *pixel, size_t count, float *samples)
+{
+	const struct spec_comparing_sums *sums = &run->comparing.sums[side];
+
+	for (size_t i = 0; i < count; i++) {
+		double sum = 0;
+
+		for (size_t k = sums->first[band]; k < sums->first[band + 1]; k++)
+			sum += sums->weight[k] *
+			       row_of(run, worker, side, line, sums->channel[k])[pixel[i]];
+		samples[i] = (float)sum;
+	}
+	return samples;
 }
 
 static void
-compare_windows(struct spec_images *result, const char *what, const struct spec_window *a,
-	const struct spec_window *b)
+gather(const struct run *run, const struct spec_stream_worker *worker,
+	const struct spec_comparing_pairs *pairs, int summed, int line, size_t count,
+	const struct room *room)
 {
-	if (memcmp(a, b, sizeof *a) != 0)
-		say(result, "%s windows differ: %d,%d,%d,%d and %d,%d,%d,%d\n", what, a->x0,
-			a->y0, a->x1, a->y1, b->x0, b->y0, b->x1, b->y1);
-}
+	float *samples = room->samples;
 
-static enum spec_status
-compare_quantities(struct spec_images *result, const struct spec_image *a,
-	const struct spec_image *b, int *same_scale, struct spec_error *error)
-{
-	char *one = spec_image_quantity(a, error), *two = spec_image_quantity(b, error);
-	enum spec_status status = one && two ? SPEC_OK : SPEC_ENOMEM;
+	for (size_t i = 0; i < 2 * pairs->count; i++) {
+		int side = i >= pairs->count;
+		size_t at = i % pairs->count;
 
-	if (status == SPEC_OK && (a->role != b->role || strcmp(one, two) != 0))
-		say(result, "quantities differ: '%s' and '%s'\n", *one ? one : "no bands",
-			*two ? two : "no bands");
-	/* Values of bands and densities are not on one scale. */
-	*same_scale =
-		status == SPEC_OK && !strstr(one, "per band") == !strstr(two, "per band");
-	free(one);
-	free(two);
-	return status;
-}
+		if (summed) {
+			room->plane[i] = sum_row(
+				run, worker, side, line, at, room->pixel, count, samples);
+		} else {
+			const size_t *channel = side ? pairs->b : pairs->a;
 
-static int
-same_band(const struct spec_image *a, const struct spec_image *b, size_t i)
-{
-	int same;
-
-	return spec_image_nearest_band(a, b->wavelength_nm[i], &same) == i && same;
-}
-
-/* Whether the bands can be paired. */
-static int
-compare_bands(
-	struct spec_images *result, const struct spec_image *a, const struct spec_image *b)
-{
-	size_t i = 0;
-	int paired = 0;
-
-	if (a->role != b->role) {
-		say(result, "bands differ: %zu and %zu, of different kinds\n", a->bands,
-			b->bands);
-		return 0;
-	}
-	if (a->stokes != b->stokes)
-		say(result, "Stokes components differ: %d and %d\n", a->stokes, b->stokes);
-	while (i < a->bands && i < b->bands && same_band(a, b, i))
-		i++;
-	if (i < a->bands && (i >= b->bands || a->wavelength_nm[i] < b->wavelength_nm[i]))
-		say(result,
-			"bands differ: %zu and %zu, the first has %g nm, the second has "
-			"not\n",
-			a->bands, b->bands, a->wavelength_nm[i]);
-	else if (i < b->bands)
-		say(result,
-			"bands differ: %zu and %zu, the second has %g nm, the first has "
-			"not\n",
-			a->bands, b->bands, b->wavelength_nm[i]);
-	else
-		paired = a->stokes == b->stokes;
-	if (paired && (a->edges_nm != NULL) != (b->edges_nm != NULL)) {
-		say(result, "bands differ: one has bins, the other has point samples\n");
-		return 0;
-	}
-	for (i = 0; paired && a->edges_nm && i <= a->bands; i++) {
-		if (fabs(a->edges_nm[i] - b->edges_nm[i]) <= SAME_NM)
-			continue;
-		say(result, "bins differ: an edge at %g nm and at %g nm\n", a->edges_nm[i],
-			b->edges_nm[i]);
-		return 0;
-	}
-	return paired;
-}
-
-/* A band's whole numbers come out of the decoder as floats, others as they are. */
-static int
-is_whole(const struct spec_channel *channel)
-{
-	return channel->sample == SPEC_SAMPLE_UINT && channel->role == SPEC_ROLE_OTHER;
-}
-
-/* Whole numbers are no bands, even where neither image has any and all channels stand in. */
-static int
-is_other(const struct spec_image *image, size_t channel, int spectral)
-{
-	const struct spec_channel *it = &image->channel[channel];
-
-	if (!spectral)
-		return it->sample == SPEC_SAMPLE_UINT;
-	return it->role == SPEC_ROLE_OTHER || it->role == SPEC_ROLE_BISPECTRAL;
-}
-
-/* Pairs by name the channels that are no bands (others 1), or those that stand in for bands. */
-static enum spec_status
-pair_channels(struct spec_images *result, const struct spec_image *a,
-	const struct spec_image *b, int others, struct pairs *pairs,
-	struct spec_error *error)
-{
-	int spectral = a->bands > 0 || b->bands > 0;
-
-	pairs->a = spec_memory_new(a->channels, sizeof *pairs->a, "channels", error);
-	pairs->b = spec_memory_new(a->channels, sizeof *pairs->b, "channels", error);
-	if (!pairs->a || !pairs->b)
-		return SPEC_ENOMEM;
-	for (size_t i = 0; i < a->channels; i++) {
-		size_t partner = spec_image_find_channel(b, a->channel[i].name);
-
-		if (is_other(a, i, spectral) != others)
-			continue;
-		if (partner == b->channels) {
-			say(result, "channel '%s' is only in the first\n",
-				a->channel[i].name);
-			continue;
+			room->plane[i] =
+				take_row(run, row_of(run, worker, side, line, channel[at]),
+					room->pixel, count, samples);
 		}
-		if ((a->channel[i].sample == SPEC_SAMPLE_UINT) !=
-			(b->channel[partner].sample == SPEC_SAMPLE_UINT))
-			say(result, "channel '%s' holds whole numbers on one side\n",
-				a->channel[i].name);
-		pairs->a[pairs->count] = i;
-		pairs->b[pairs->count++] = partner;
-	}
-	for (size_t i = 0; i < b->channels; i++) {
-		if (is_other(b, i, spectral) == others &&
-			spec_image_find_channel(a, b->channel[i].name) == a->channels)
-			say(result, "channel '%s' is only in the second\n",
-				b->channel[i].name);
-	}
-	return SPEC_OK;
-}
-
-static enum spec_status
-pair_bands(const struct spec_image *a, const struct spec_image *b, struct pairs *pairs,
-	struct spec_error *error)
-{
-	size_t count = a->bands * (size_t)a->stokes;
-
-	pairs->a = spec_memory_new(count, sizeof *pairs->a, "bands", error);
-	pairs->b = spec_memory_new(count, sizeof *pairs->b, "bands", error);
-	if (!pairs->a || !pairs->b)
-		return SPEC_ENOMEM;
-	pairs->count = count;
-	memcpy(pairs->a, a->band_channel, count * sizeof *pairs->a);
-	memcpy(pairs->b, b->band_channel, count * sizeof *pairs->b);
-	return SPEC_OK;
-}
-
-static enum spec_status
-compare_structure(struct comparison *comparison, struct spec_error *error)
-{
-	struct spec_images *result = comparison->result;
-	const struct spec_image *a = comparison->a, *b = comparison->b;
-	int same_window = memcmp(&a->data, &b->data, sizeof a->data) == 0, same_scale;
-	enum spec_status status;
-
-	compare_windows(result, "data", &a->data, &b->data);
-	compare_windows(result, "display", &a->display, &b->display);
-	result->comparable = compare_bands(result, a, b) && same_window;
-	status = compare_quantities(result, a, b, &same_scale, error);
-	if (status != SPEC_OK)
-		return status;
-	result->comparable &= same_scale;
-	status = pair_channels(result, a, b, 1, &comparison->others, error);
-	if (status == SPEC_OK && a->bands == 0 && b->bands == 0)
-		status = pair_channels(result, a, b, 0, &comparison->bands, error);
-	else if (status == SPEC_OK && result->comparable)
-		status = pair_bands(a, b, &comparison->bands, error);
-	return status;
-}
-
-/* XYZ weights of S0's bands or of T's; the other Stokes components have none. */
-static enum spec_status
-plan_colour(struct comparison *comparison, const struct spec_images_setup *setup,
-	struct spec_error *error)
-{
-	const struct spec_image *a = comparison->a;
-	struct spec_bands bands = {a->bands, a->wavelength_nm, a->edges_nm, 0};
-	const struct spec_curve *light =
-		a->role == SPEC_ROLE_REFLECTIVE ? setup->illuminant : NULL;
-	size_t count = comparison->bands.count;
-	double outside,
-		*weight = spec_memory_new(3 * a->bands, sizeof *weight, "bands", error);
-	char *quantity = spec_image_quantity(a, error);
-	enum spec_status status = weight && quantity ? SPEC_OK : SPEC_ENOMEM;
-
-	comparison->weight_xyz = spec_memory_new(3 * count, sizeof *weight, "bands", error);
-	if (!comparison->weight_xyz)
-		status = SPEC_ENOMEM;
-	bands.per_band = quantity && strstr(quantity, "per band") != NULL;
-	free(quantity);
-	if (status == SPEC_OK)
-		status = spec_observer_weights(
-			setup->observer, light, &bands, weight, &outside, error);
-	for (size_t i = 0; i < 3 * a->bands && status == SPEC_OK; i++)
-		comparison->weight_xyz[i / a->bands * count + i % a->bands] =
-			weight[i] * exp2(setup->exposure);
-	free(weight);
-	if (status != SPEC_OK)
-		return status;
-	comparison->spectral_setup.weight_xyz = comparison->weight_xyz;
-	comparison->result->coloured = 1;
-	return spec_observer_white(setup->observer, setup->illuminant,
-		comparison->spectral_setup.white_xyz, error);
-}
-
-static void
-gather(const struct spec_stream_worker *worker, const struct pairs *pairs,
-	const struct comparison *comparison, int line, const float **plane)
-{
-	for (size_t i = 0; i < pairs->count; i++) {
-		plane[i] = spec_decoder_row(
-			worker->decoder[0], comparison->a->data.y0 + line, pairs->a[i]);
-		plane[pairs->count + i] = spec_decoder_row(
-			worker->decoder[1], comparison->b->data.y0 + line, pairs->b[i]);
+		if (makes_rows(run))
+			samples += run->width;
 	}
 }
 
@@ -314,68 +209,179 @@ add_whole(struct spec_whole *total, const struct spec_whole *row)
 	total->differing = before + row->differing;
 }
 
+/* Bit for bit: the pairs' planes are in room. */
 static void
-measure_others(const struct comparison *comparison, const struct spec_stream_worker *worker,
-	int line, const float **plane, struct row *row)
+compare_bits(const struct spec_comparing_pairs *pairs, const struct room *room,
+	size_t width, int y, struct spec_exact *exact)
 {
-	const struct pairs *pairs = &comparison->others;
-	size_t width = spec_window_width(&comparison->a->data);
-
-	gather(worker, pairs, comparison, line, plane);
-	spec_measure_clear(&row->others);
-	row->whole = (struct spec_whole){0};
 	for (size_t i = 0; i < pairs->count; i++) {
-		const float *const *a = &plane[i], *const *b = &plane[pairs->count + i];
+		const float *a = room->plane[i], *b = room->plane[pairs->count + i];
+
+		if (memcmp(a, b, width * sizeof *a) == 0)
+			continue;
+		for (size_t x = 0; x < width; x++) {
+			struct spec_exact here = {
+				exact->differing, 0, 0, x, pairs->a[i], y};
+
+			memcpy(&here.a, a + x, sizeof here.a);
+			memcpy(&here.b, b + x, sizeof here.b);
+			if (here.a == here.b)
+				continue;
+			if (exact->differing == 0)
+				*exact = here;
+			exact->differing++;
+		}
+	}
+}
+
+static void
+add_exact(struct spec_exact *total, const struct spec_exact *row)
+{
+	unsigned long long before = total->differing;
+
+	if (before == 0)
+		*total = *row;
+	else
+		total->differing = before + row->differing;
+}
+
+static void
+measure_others(const struct run *run, const struct spec_stream_worker *worker, int line,
+	int y, size_t count, const struct room *room, struct row *row)
+{
+	const struct spec_comparing *comparing = &run->comparing;
+	const struct spec_comparing_pairs *pairs = &comparing->others;
+
+	gather(run, worker, pairs, 0, line, count, room);
+	spec_measure_clear(&row->others);
+	for (size_t i = 0; i < pairs->count; i++) {
+		const float *const *a = &room->plane[i];
+		const float *const *b = &room->plane[pairs->count + i];
 		struct spec_measure one;
 
-		if (is_whole(&comparison->a->channel[pairs->a[i]])) {
-			compare_whole(*a, *b, width, pairs->a[i], line, &row->whole);
+		if (spec_comparing_is_whole(&comparing->a->channel[pairs->a[i]])) {
+			compare_whole(*a, *b, count, pairs->a[i], y, &row->whole);
 			continue;
 		}
-		spec_measure_row(&comparison->others_setup, a, b, width, line, &one);
+		spec_measure_row(&comparing->others_setup, a, b, count, y, &one);
 		one.difference.place.band = one.nonfinite_first.band = i;
 		spec_measure_add(&row->others, &one);
+	}
+	if (comparing->setup->exact)
+		compare_bits(pairs, room, count, y, &row->exact);
+}
+
+/* From the place among the pixels that count to that from the window's corner. */
+static void
+place_pixels(struct spec_measure *measure, const size_t *pixel, size_t count, size_t corner)
+{
+	struct spec_measure_place *place[] = {&measure->nonfinite_first,
+		&measure->difference.place, &measure->angle_most.place,
+		&measure->fit_least.place, &measure->colour_most.place};
+
+	for (size_t i = 0; i < sizeof place / sizeof *place && count > 0; i++)
+		place[i]->x = pixel[place[i]->x] + corner;
+}
+
+/* The maps' rows, first without gaps, then each value in its place. */
+static void
+fill_maps(const struct run *run, const struct room *room, int line, size_t count,
+	struct spec_detail_band *band)
+{
+	const struct spec_comparing *comparing = &run->comparing;
+	size_t bands = comparing->bands.count;
+	float *map[SPEC_DETAIL_PIXELS];
+
+	for (int kind = 0; kind < SPEC_DETAIL_PIXELS; kind++) {
+		map[kind] = comparing->result->map[kind];
+		if (map[kind])
+			map[kind] += (size_t)line * run->width;
+	}
+	spec_detail_row(&comparing->spectral_setup, comparing->setup->maps, room->plane,
+		room->plane + bands, count, map, band);
+	for (int kind = 0; kind < SPEC_DETAIL_PIXELS; kind++) {
+		size_t from = count;
+
+		for (size_t x = run->width; x-- > 0 && map[kind] && run->mask.matte;) {
+			int counts = from > 0 && room->pixel[from - 1] == x;
+
+			map[kind][x] = counts ? map[kind][--from] : NAN;
+		}
 	}
 }
 
 static enum spec_status
 kernel(void *state, struct spec_stream_worker *worker, int line, struct spec_error *error)
 {
-	const struct comparison *comparison = state;
-	size_t width = spec_window_width(&comparison->a->data);
-	const float **plane = worker->scratch;
+	const struct run *run = state;
+	const struct spec_comparing *comparing = &run->comparing;
+	const struct spec_images_setup *setup = comparing->setup;
+	struct room room = cut_room(run, worker->scratch);
+	size_t bands = comparing->bands.count;
+	size_t count = choose_pixels(run, worker, line, room.pixel);
 	struct row *row = (struct row *)(void *)worker->payload;
+	struct spec_detail_band *band = (struct spec_detail_band *)(void *)(row + 1);
+	int y = line + comparing->region.y0;
+	size_t x0 = (size_t)comparing->region.x0;
 
 	(void)error;
-	gather(worker, &comparison->bands, comparison, line, plane);
+	*row = (struct row){0};
 	spec_measure_clear(&row->spectral);
-	if (comparison->bands.count > 0)
-		spec_measure_row(&comparison->spectral_setup, plane,
-			plane + comparison->bands.count, width, line, &row->spectral);
-	measure_others(comparison, worker, line, plane, row);
+	gather(run, worker, &comparing->bands, comparing->sums[0].first != NULL, line,
+		count, &room);
+	if (bands > 0) {
+		spec_measure_row(&comparing->spectral_setup, room.plane, room.plane + bands,
+			count, y, &row->spectral);
+		if (setup->exact)
+			compare_bits(&comparing->bands, &room, count, y, &row->exact);
+		if (setup->maps || setup->want_bands)
+			fill_maps(run, &room, line, count, setup->want_bands ? band : NULL);
+	}
+	measure_others(run, worker, line, y, count, &room, row);
+	place_pixels(&row->spectral, room.pixel, count, x0);
+	place_pixels(&row->others, room.pixel, count, x0);
+	if (row->whole.differing > 0)
+		row->whole.x = room.pixel[row->whole.x] + x0;
+	if (row->exact.differing > 0)
+		row->exact.x = room.pixel[row->exact.x] + x0;
 	return SPEC_OK;
+}
+
+static size_t
+payload_bytes(const struct run *run)
+{
+	size_t bands = run->comparing.setup->want_bands ? run->comparing.bands.count : 0;
+
+	return sizeof(struct row) + bands * sizeof(struct spec_detail_band);
 }
 
 static enum spec_status
 deliver(void *state, const unsigned char *payload, int line, int count,
 	struct spec_error *error)
 {
-	struct comparison *comparison = state;
-	const struct row *row = (const struct row *)(const void *)payload;
+	struct run *run = state;
+	struct spec_images *result = run->comparing.result;
 
 	(void)line;
 	(void)error;
-	for (int i = 0; i < count; i++) {
-		spec_measure_add(&comparison->result->spectral, &row[i].spectral);
-		spec_measure_add(&comparison->result->others, &row[i].others);
-		add_whole(&comparison->result->whole, &row[i].whole);
+	for (int i = 0; i < count; i++, payload += payload_bytes(run)) {
+		const struct row *row = (const struct row *)(const void *)payload;
+		const struct spec_detail_band *band =
+			(const struct spec_detail_band *)(const void *)(row + 1);
+
+		spec_measure_add(&result->spectral, &row->spectral);
+		spec_measure_add(&result->others, &row->others);
+		add_whole(&result->whole, &row->whole);
+		add_exact(&result->exact, &row->exact);
+		for (size_t k = 0; result->band && k < run->comparing.bands.count; k++)
+			spec_detail_band_add(&result->band[k], &band[k]);
 	}
 	return SPEC_OK;
 }
 
-/* From the place among the pairs to the channel of A. */
+/* From the place among the pairs to the channel. */
 static void
-name_channels(struct spec_measure *measure, const struct pairs *pairs)
+name_channels(struct spec_measure *measure, const struct spec_comparing_pairs *pairs)
 {
 	if (pairs->count == 0)
 		return;
@@ -384,36 +390,160 @@ name_channels(struct spec_measure *measure, const struct pairs *pairs)
 }
 
 static enum spec_status
-measure(struct comparison *comparison, struct spec_reader *a, struct spec_reader *b,
+plan_region(struct run *run, const char *name, struct spec_error *error)
+{
+	struct spec_comparing *comparing = &run->comparing;
+	const struct spec_window *crop = comparing->setup->crop;
+	size_t width = spec_window_width(&comparing->a->data);
+	size_t height = spec_window_height(&comparing->a->data);
+
+	comparing->region = (struct spec_window){0, 0, (int)width, (int)height};
+	if (crop && ((size_t)crop->x1 > width || (size_t)crop->y1 > height))
+		return spec_error_set(error, SPEC_ERANGE,
+			"%s: the crop %d,%d,%d,%d reaches beyond its %zu x %zu pixels",
+			name, crop->x0, crop->y0, crop->x1, crop->y1, width, height);
+	if (crop && (crop->x0 >= crop->x1 || crop->y0 >= crop->y1))
+		return spec_error_set(error, SPEC_ERANGE,
+			"%s: the crop %d,%d,%d,%d is empty", name, crop->x0, crop->y0,
+			crop->x1, crop->y1);
+	if (crop)
+		comparing->region = *crop;
+	comparing->result->region = comparing->region;
+	run->width = spec_window_width(&comparing->region);
+	return SPEC_OK;
+}
+
+static enum spec_status
+plan_mask(struct run *run, struct spec_error *error)
+{
+	const struct spec_images_setup *setup = run->comparing.setup;
+	const struct spec_image *image = setup->mask_reader
+						 ? spec_reader_image(setup->mask_reader)
+						 : run->comparing.a;
+	const struct spec_window *a = &run->comparing.a->data, *m = &image->data;
+
+	if (!setup->mask)
+		return SPEC_OK;
+	if (memcmp(a, m, sizeof *a) != 0)
+		return spec_error_set(error, SPEC_ERANGE,
+			"the mask's data window is %d,%d,%d,%d, the images' is %d,%d,%d,%d",
+			m->x0, m->y0, m->x1, m->y1, a->x0, a->y0, a->x1, a->y1);
+	run->mask.decoder = setup->mask_reader ? 2 : 0;
+	run->mask.channel = spec_image_find_channel(image, setup->mask->channel);
+	run->mask.y0 = m->y0;
+	run->mask.matte = setup->mask;
+	run->mask.whole = spec_comparing_is_whole(&image->channel[run->mask.channel]);
+	return SPEC_OK;
+}
+
+/* Room for what outlives the comparison. */
+static enum spec_status
+plan_results(
+	struct run *run, const struct spec_settings *settings, struct spec_error *error)
+{
+	struct spec_comparing *comparing = &run->comparing;
+	struct spec_images *result = comparing->result;
+	size_t bands = comparing->bands.count;
+	size_t pixels = run->width * spec_window_height(&comparing->region), maps = 0;
+
+	for (int kind = 0; kind < SPEC_DETAIL_PIXELS; kind++)
+		maps += comparing->setup->maps >> kind & 1;
+	if (maps > 0 && pixels > (size_t)settings->limits.memory / (maps * sizeof(float)))
+		return spec_error_set(error, SPEC_ERANGE,
+			"%zu values for each of %zu pixels are more than the limit "
+			"memory=%lld (--limit)",
+			maps, pixels, settings->limits.memory);
+	for (int kind = 0; kind < SPEC_DETAIL_PIXELS; kind++) {
+		if (!(comparing->setup->maps & 1u << kind))
+			continue;
+		result->map[kind] = spec_memory_new(pixels, sizeof(float), "pixels", error);
+		if (!result->map[kind])
+			return SPEC_ENOMEM;
+	}
+	if (!comparing->setup->want_bands)
+		return SPEC_OK;
+	result->band = spec_memory_new(bands, sizeof *result->band, "bands", error);
+	result->band_channel =
+		spec_memory_new(bands, sizeof *result->band_channel, "bands", error);
+	result->band_nm = spec_memory_new(bands, sizeof *result->band_nm, "bands", error);
+	if (!result->band || !result->band_channel || !result->band_nm)
+		return SPEC_ENOMEM;
+	for (size_t i = 0; i < bands; i++) {
+		result->band_channel[i] = comparing->bands.a[i];
+		if (comparing->grid_bands > 0)
+			result->band_nm[i] = comparing->grid_nm[i % comparing->grid_bands];
+	}
+	result->width_nm = comparing->width_nm;
+	comparing->width_nm = NULL;
+	return SPEC_OK;
+}
+
+static enum spec_status
+measure(struct run *run, struct spec_reader *a, struct spec_reader *b,
 	const struct spec_settings *settings, struct spec_error *error)
 {
-	size_t planes = 2 * (comparison->bands.count + comparison->others.count);
+	struct spec_comparing *comparing = &run->comparing;
 	struct spec_stream stream = {
-		.reader = {a, b},
-		.readers = 2,
-		.first_line = comparison->a->data.y0,
-		.lines = (int)spec_window_height(&comparison->a->data),
+		.reader = {a, b, comparing->setup->mask_reader},
+		.readers = run->mask.decoder == 2 ? 3 : 2,
+		.first_line = comparing->a->data.y0 + comparing->region.y0,
+		.lines = (int)spec_window_height(&comparing->region),
 		.lines_in = 1,
-		.payload_bytes = sizeof(struct row),
-		.scratch_bytes = planes * sizeof(float *),
-		.state = comparison,
+		.payload_bytes = payload_bytes(run),
+		.state = run,
 		.kernel = kernel,
 		.deliver = deliver,
 	};
+	enum spec_status status;
 
-	enum spec_status status = spec_stream_run(&stream, settings, error);
-
-	comparison->result->bands = comparison->bands.count;
-	name_channels(&comparison->result->spectral, &comparison->bands);
-	name_channels(&comparison->result->others, &comparison->others);
+	run->planes = 2 * (comparing->bands.count + comparing->others.count);
+	stream.scratch_bytes = room_bytes(run);
+	status = spec_stream_run(&stream, settings, error);
+	comparing->result->bands = comparing->bands.count;
+	name_channels(&comparing->result->spectral, &comparing->bands);
+	name_channels(&comparing->result->others, &comparing->others);
 	return status;
 }
 
-static void
-free_pairs(struct pairs *pairs)
+static enum spec_status
+plan(struct run *run, const struct spec_settings *settings, const char *name,
+	struct spec_error *error)
 {
-	free(pairs->a);
-	free(pairs->b);
+	struct spec_comparing *comparing = &run->comparing;
+	const struct spec_images_setup *setup = comparing->setup;
+	enum spec_status status = SPEC_OK;
+
+	comparing->spectral_setup.bands = comparing->bands.count;
+	comparing->spectral_setup.want_angle = setup->want_angle;
+	comparing->spectral_setup.peak = setup->peak;
+	comparing->others_setup.bands = 1;
+	if (setup->observer && comparing->bands.count > 0)
+		status = spec_comparing_colour(comparing, error);
+	if (status == SPEC_ERANGE && setup->colour_optional)
+		status = SPEC_OK;
+	else if (status != SPEC_OK)
+		spec_error_prefix(error, "%s", name);
+	if (status == SPEC_OK)
+		status = plan_region(run, name, error);
+	if (status == SPEC_OK)
+		status = plan_mask(run, error);
+	if (status == SPEC_OK && setup->want_bands)
+		status = spec_comparing_widths(comparing, error);
+	if (status == SPEC_OK)
+		status = plan_results(run, settings, error);
+	return status;
+}
+
+/* What was not looked at: the writer of a pipe must not be killed for that. */
+static enum spec_status
+drain(struct spec_reader *const *reader, size_t readers, struct spec_error *error)
+{
+	enum spec_status status = SPEC_OK;
+
+	for (size_t i = 0; i < readers && status == SPEC_OK; i++)
+		if (reader[i])
+			status = spec_reader_drain(reader[i], error);
+	return status;
 }
 
 enum spec_status
@@ -421,37 +551,32 @@ spec_images_compare(struct spec_images *result, struct spec_reader *a,
 	struct spec_reader *b, const struct spec_images_setup *setup,
 	const struct spec_settings *settings, struct spec_error *error)
 {
-	struct comparison comparison = {
-		.result = result, .a = spec_reader_image(a), .b = spec_reader_image(b)};
+	struct run run = {.comparing = {.result = result,
+				  .setup = setup,
+				  .a = spec_reader_image(a),
+				  .b = spec_reader_image(b)}};
+	struct spec_reader *const readers[] = {a, b, setup->mask_reader};
 	enum spec_status status;
 
 	*result = (struct spec_images){0};
 	spec_measure_clear(&result->spectral);
 	spec_measure_clear(&result->others);
-	status = compare_structure(&comparison, error);
-	comparison.spectral_setup.bands = comparison.bands.count;
-	comparison.spectral_setup.want_angle = setup->want_angle;
-	comparison.spectral_setup.peak = setup->peak;
-	comparison.others_setup.bands = 1;
-	if (status == SPEC_OK && result->comparable && setup->observer &&
-		comparison.a->bands > 0)
-		status = plan_colour(&comparison, setup, error);
-	if (status == SPEC_ERANGE && setup->colour_optional)
-		status = SPEC_OK;
-	else if (status != SPEC_OK)
+	status = spec_comparing_structure(&run.comparing, error);
+	if (status != SPEC_OK)
 		spec_error_prefix(error, "%s", spec_reader_name(a));
-	if (status == SPEC_OK && result->comparable &&
-		comparison.bands.count + comparison.others.count > 0)
-		status = measure(&comparison, a, b, settings, error);
-	else
+	if (run.comparing.bands.count + run.comparing.others.count == 0)
 		result->comparable = 0;
-	/* What was not looked at: the writer of a pipe must not be killed for that. */
-	if (status == SPEC_OK && !result->comparable)
-		status = spec_reader_drain(a, error);
-	if (status == SPEC_OK && !result->comparable)
-		status = spec_reader_drain(b, error);
-	free_pairs(&comparison.bands);
-	free_pairs(&comparison.others);
-	free(comparison.weight_xyz);
+	if (status == SPEC_OK && result->comparable)
+		status = plan(&run, settings, spec_reader_name(a), error);
+	if (status == SPEC_OK && result->comparable)
+		status = measure(&run, a, b, settings, error);
+	if (status == SPEC_OK && setup->mask && result->comparable &&
+		result->spectral.pixels + result->others.pixels == 0)
+		status = spec_error_set(error, SPEC_ERANGE, "the mask leaves no pixel");
+	if (status == SPEC_OK && (!result->comparable || setup->crop))
+		status = drain(readers, 3, error);
+	spec_comparing_free(&run.comparing);
+	if (status != SPEC_OK)
+		spec_images_free(result);
 	return status;
 }

@@ -443,6 +443,247 @@ max        0' ] || complain "$answer"
   done
 }
 
+# More metrics, in closed form
+
+@test "1 and 1.5 everywhere: mae 0.5, relative 0.5, energy 0.5, and -1/3 the other way round" {
+  spectral a.exr --pattern constant:1
+  spectral b.exr --pattern constant:1.5
+  answers 1 specdiff --metric mae,relative,energy a.exr b.exr
+  [ "$answer" = 'mae        0.5
+relative   0.5
+energy     0.5' ] || complain "$answer"
+  answers 1 specdiff --metric energy b.exr a.exr
+  prints 'energy     -0.333333'
+  answers 0 specdiff --tolerance energy=0.3334 b.exr a.exr
+  answers 1 specdiff --tolerance energy=0.3333 b.exr a.exr
+}
+
+@test "the energy is an integral: what a wide band has counts as wide as it is" {
+  # bins of 100 and 10 nm; 0.5 more in the second: 5 of the first's 100 + 10
+  spectral a.exr --size 1x1 --channel S0.450,000000nm --channel S0.505,000000nm \
+    --attribute 'spec:bins=400 500 510' --pattern constant:1 --compression none
+  cp a.exr b.exr
+  last_sample b.exr '\x00\x00\xc0\x3f' # 1.5
+  answers 1 specdiff --metric energy a.exr b.exr
+  prints 'energy     0.0454545'
+}
+
+@test "the information divergence of (0.001, 0.101) and (1, 1) is 2.262314" {
+  # p = (1, 101) / 102, q = (1, 1) / 2: the sum of (p - q) ln(p / q)
+  spectral a.exr --size 1x1 --grid 500:600:100
+  spectral b.exr --size 1x1 --grid 500:600:100 --pattern constant:1
+  answers 1 specdiff --metric sid,sid-max a.exr b.exr
+  prints 'sid        2.26231'
+  answers 0 specdiff --tolerance sid=0 a.exr a.exr
+  spectral dark.exr --size 1x1 --grid 500:600:100 --pattern constant:0
+  answers 1 specdiff --metric sid a.exr dark.exr
+  prints 'sid        inf'
+}
+
+@test "two greys are as far apart in CIELAB and CIE94 as their lightness" {
+  # L* = 116 T^(1/3) - 16: 50.00000 and 51.51914
+  spectral a.exr --kind T --grid 360:830:5 --pattern constant:0.1841865
+  spectral b.exr --kind T --grid 360:830:5 --pattern constant:0.1972
+  answers 1 specdiff --metric de76,de94,de94-max a.exr b.exr
+  grep -qE '^de76       1\.5191' <<<"$answer" || complain "$answer"
+  grep -qE '^de94       1\.5191' <<<"$answer" || complain "$answer"
+}
+
+@test "percentiles are those of the pixels, by nearest rank" {
+  spectral a.exr --size 10x1 --grid 500:600:100 --pattern constant:0
+  spectral b.exr --size 10x1 --grid 500:600:100
+  # the largest of pixel x is (x + 1) * 0.001 + 0.1
+  answers 1 specdiff --metric max-p50,max-p51,max-p100,max-p0,max-p10 a.exr b.exr
+  prints 'max-p50    0.105 at 4,0'
+  prints 'max-p51    0.106 at 5,0'
+  prints 'max-p100   0.11 at 9,0'
+  prints 'max-p0     0.101 at 0,0'
+  prints 'max-p10    0.101 at 0,0'
+  answers 0 specdiff --tolerance max-p50=0.1051 a.exr b.exr
+  answers 1 specdiff --tolerance max-p50=0.1049 a.exr b.exr
+  fails_cleanly specdiff --metric max-p101 a.exr b.exr
+  fails_cleanly specdiff --metric psnr-p50 a.exr b.exr
+  fails_cleanly specdiff --metric max-p a.exr b.exr
+}
+
+@test "a NaN on one side is beyond every percentile's tolerance and makes every mean infinite" {
+  spectral a.exr
+  spectral b.exr --pattern nan:2,3,4
+  for metric in mae relative energy sid de76 de94 max-p1 de2000-p50; do
+    answers 1 specdiff --tolerance $metric=1e300 a.exr b.exr
+  done
+  answers 1 specdiff --metric mae,sid,max-p100 a.exr b.exr
+  prints 'mae        inf'
+  prints 'sid        inf'
+  prints 'max-p100   inf at 2,3'
+}
+
+@test "--bands tells them one by one" {
+  spectral a.exr --size 2x1 --grid 500:600:100 --pattern constant:0
+  spectral b.exr --size 2x1 --grid 500:600:100
+  # 0.001 0.002 and 0.101 0.102
+  answers 1 specdiff --metric rmse --bands a.exr b.exr
+  [ "$(tail -n 3 <<<"$answer" | tr -s ' ')" = 'band rmse mae max
+S0.500,000000nm 0.00158114 0.0015 0.002
+S0.600,000000nm 0.101501 0.1015 0.102' ] || complain "$answer"
+}
+
+@test "--json tells all of it" {
+  spectral a.exr --pattern constant:1
+  spectral b.exr --pattern constant:1.5
+  answers 1 specdiff --json --bands -m all,max-p99 -t max=0.1 -t rmse=1 a.exr b.exr
+  [ "$(jq -c '[.same, .measured, .metrics.max.value, .metrics.max.at, .metrics.max.within,
+    .metrics.rmse.within, .metrics.rmse.tolerance, .metrics.psnr.unit, .metrics.max.wavelength_nm,
+    .images[1].bands, .region, .pixels, (.bands | length), .bands[15].wavelength_nm, .bands[3].mae,
+    .metrics["max-p99"].value]' <<<"$answer")" = \
+    '[false,true,0.5,[0,0],false,true,1,"dB",400,16,[0,0,16,8],128,16,700,0.5,0.5]' ] ||
+    complain "$answer"
+  answers 0 specdiff --json a.exr a.exr
+  [ "$(jq -c '[.same, .metrics.psnr.value, .metrics.psnr.infinite, .structure]' <<<"$answer")" = \
+    '[true,null,"+",[]]' ] || complain "$answer"
+  spectral c.exr --grid 400:500:20
+  answers 1 specdiff --json a.exr c.exr
+  [ "$(jq -c '[.same, .measured, (.structure | length), .metrics]' <<<"$answer")" = \
+    '[false,false,2,null]' ] || complain "$answer"
+}
+
+# Other grids, formats and pictures
+
+@test "different grids are refused with both named, and compared over their overlap on request" {
+  spectral a.exr
+  specconvert --grid 410:690:10 a.exr -o fine.exr
+  answers 1 specdiff a.exr fine.exr
+  prints 'grids: 400 to 700 nm in 16 bands and 410 to 690 nm in 29 (--resample compares their overlap)'
+  # the ramp is straight in wavelength: nothing is lost between the bands
+  answers 0 specdiff --resample --tolerance max=2e-7 a.exr fine.exr
+  prints "resampled to the first's grid: 420 to 680 nm in 14 bands of 16 and 29"
+  answers 0 specdiff --resample --tolerance max=2e-7 fine.exr a.exr
+  prints "resampled to the second's grid: 420 to 680 nm in 14 bands of 29 and 16"
+  specconvert --scale 1.1 fine.exr -o more.exr
+  answers 1 specdiff --resample -m relative,max a.exr more.exr
+  prints 'relative   0.1'
+  # the last band of the overlap: 1.4 + 0.016 + 0.07, a tenth of it
+  grep -qF "at 15,7 in 'S0.680,000000nm': 1.48599994 and 1.634" <<<"$answer" || complain "$answer"
+}
+
+@test "bins are compared by the energy in what they share" {
+  spectral a.exr --grid 410:690:20 --bins
+  specconvert --grid 430:670:60 --rebin a.exr -o wide.exr
+  answers 0 specdiff --resample --tolerance max=2e-7 a.exr wide.exr
+  prints "resampled to the second's grid: 430 to 670 nm in 5 bands of 15 and 5"
+  specconvert --scale 1.1 a.exr -o more.exr
+  answers 1 specdiff --resample --tolerance max=0.01 more.exr wide.exr
+}
+
+@test "grids without an overlap, and bins against points, stay different" {
+  spectral a.exr
+  spectral far.exr --grid 900:1000:20
+  answers 1 specdiff --resample a.exr far.exr
+  prints 'no band of the coarser grid lies in the other'
+  spectral bins.exr --bins
+  answers 1 specdiff --resample a.exr bins.exr
+  prints 'bands differ: one has bins, the other has point samples'
+}
+
+@test "ENVI, TIFF and hsr are compared with EXR" {
+  spectral a.exr
+  spectral b.exr --bins
+  specconvert a.exr -o a.img
+  specconvert a.exr -o a.tif
+  specconvert b.exr -o b.hsr
+  same a.exr a.img
+  same a.exr a.tif
+  specconvert b.hsr -o d.exr # its own bins
+  same d.exr b.hsr
+  specconvert --scale 1.5 a.exr -o c.img
+  answers 1 specdiff -m relative a.tif c.img
+  prints 'relative   0.5'
+}
+
+@test "pictures have colour differences: of sRGB's R, G and B" {
+  # red 255,0,0 and green 0,255,0: CIELAB 53.24, 80.09, 67.20 and 87.73, -86.18, 83.18 (Lindbloom)
+  printf 'P6 1 1 255\n\377\000\000' >red.ppm
+  printf 'P6 1 1 255\n\000\377\000' >green.ppm
+  if command -v oiiotool >/dev/null; then
+    oiiotool red.ppm -o red.png && oiiotool green.ppm -o green.png
+  else
+    skip 'no oiiotool to make a PNG'
+  fi
+  answers 1 specdiff -m de76,max red.png green.png
+  grep -qE '^de76       170\.5' <<<"$answer" || complain "$answer"
+  grep -qE "^max        1 at 0,0 in 'G': 0 and 1" <<<"$answer" || complain "$answer"
+}
+
+# Regions
+
+@test "--crop: what lies outside does not count" {
+  spectral a.exr --compression none
+  cp a.exr b.exr
+  last_sample b.exr '\x00\x00\x40\x40'
+  answers 1 specdiff a.exr b.exr
+  answers 0 specdiff --crop 0,0,15,8 a.exr b.exr
+  answers 0 specdiff --crop 0,0,16,7 a.exr b.exr
+  answers 1 specdiff -m max,max-p100 --crop 15,7,16,8 a.exr b.exr
+  prints "max        1.414 at 15,7 in 'S0.700,000000nm': 1.58599997 and 3"
+  prints 'max-p100   1.414 at 15,7'
+  fails_cleanly specdiff --crop 0,0,17,8 a.exr b.exr
+  fails_cleanly specdiff --crop 3,3,3,4 a.exr b.exr
+}
+
+@test "--mask: what lies outside does not count" {
+  # id is x + 65536 y: 458767 at 15,7
+  spectral a.exr --size 16x8 --uint-id --compression none
+  spectral b.exr --size 16x8 --uint-id --compression none --pattern inf:15,7,15
+  answers 1 specdiff a.exr b.exr
+  answers 1 specdiff --mask id=458767 a.exr b.exr
+  prints "max        inf at 15,7 in 'S0.700,000000nm': 1.58599997 and inf, the first of 1 that are not finite"
+  answers 0 specdiff --mask id=458766 a.exr b.exr
+  answers 1 specdiff --mask id a.exr b.exr
+  spectral mask.exr --channel Y --channel Z --pattern constant:1 --compression none
+  answers 1 specdiff --mask mask.exr:Y a.exr b.exr
+  last_sample mask.exr '\x00\x00\x00\x00'
+  answers 0 specdiff --mask mask.exr:Z a.exr b.exr
+  answers 1 specdiff --mask mask.exr:Y a.exr b.exr
+  fails_cleanly specdiff --mask id=458768 a.exr b.exr
+  [[ $stderr = *'leaves no pixel'* ]]
+  spectral small.exr --size 8x8 --channel Y
+  fails_cleanly specdiff --mask small.exr a.exr b.exr
+  fails_cleanly specdiff --mask nothing a.exr b.exr
+}
+
+# Bit for bit
+
+@test "--exact: one ULP, the sign of 0 and the bits of a NaN count, whatever is tolerated" {
+  spectral a.exr --size 1x1 --compression none
+  last_sample a.exr '\x00\x00\x80\x3f'
+  answers 0 specdiff --exact a.exr a.exr
+  prints 'exact      all bits are the same'
+  cp a.exr b.exr
+  last_sample b.exr '\x01\x00\x80\x3f'
+  answers 0 specdiff -t max=1 a.exr b.exr
+  answers 1 specdiff --exact -t max=1 a.exr b.exr
+  prints "exact      1 samples differ, the first at 0,0 in 'S0.700,000000nm': 1 (0x3f800000) and 1.00000012 (0x3f800001)"
+  last_sample a.exr '\x00\x00\x00\x80'
+  last_sample b.exr '\x00\x00\x00\x00'
+  answers 0 specdiff a.exr b.exr
+  answers 1 specdiff --exact a.exr b.exr
+  last_sample a.exr '\x00\x00\xc0\x7f'
+  last_sample b.exr '\x01\x00\xc0\x7f'
+  answers 0 specdiff a.exr b.exr
+  answers 1 specdiff --exact a.exr b.exr
+  last_sample b.exr '\x00\x00\xc0\x7f'
+  answers 0 specdiff --exact a.exr b.exr
+}
+
+@test "another unit always differs" {
+  spectral a.exr --attribute 'emissiveUnits=W.m^-2.sr^-1'
+  spectral b.exr --attribute 'emissiveUnits=mW.m^-2.sr^-1'
+  always_differ a.exr b.exr
+  prints "units differ: 'mW.m^-2.sr^-1' and 'W.m^-2.sr^-1'"
+  spectral c.exr --without emissiveUnits
+  same a.exr c.exr
+}
+
 # Input, output and usage
 
 @test "either image can come from standard input" {

@@ -431,6 +431,21 @@ test_ciede2000_sharma(void **state)
 	}
 }
 
+/* By hand: the reference's chroma alone sets S_C = 1 + .045 C, S_H = 1 + .015 C. */
+static void
+test_cie94(void **state)
+{
+	const double red[] = {50, 10, 0}, yellow[] = {50, 0, 10}, weak[] = {50, 3, 4},
+		     strong[] = {52, 6, 8};
+
+	(void)state;
+	near(spec_difference_cie94(red, red), 0, 0, "itself");
+	near(spec_difference_cie94(red, yellow), sqrt(200) / 1.15, 1e-13, "hue alone");
+	near(spec_difference_cie94(weak, strong), hypot(2, 5 / 1.225), 1e-13, "from weak");
+	near(spec_difference_cie94(strong, weak), hypot(2, 5 / 1.45), 1e-13, "from strong");
+	assert_true(isnan(spec_difference_cie94((double[]){50, NAN, 0}, red)));
+}
+
 static void
 test_ciede2000_nan(void **state)
 {
@@ -821,6 +836,7 @@ main(void)
 		cmocka_unit_test(test_encode_special),
 		cmocka_unit_test(test_encode_stride),
 		cmocka_unit_test(test_ciede2000_sharma),
+		cmocka_unit_test(test_cie94),
 		cmocka_unit_test(test_ciede2000_nan),
 		cmocka_unit_test(test_lab),
 		cmocka_unit_test(test_observer_flat),

@@ -1,0 +1,71 @@
+/* What the parts of a comparison of images share; compare/images.h is its outside. */
+#ifndef SPEC_COMPARE_COMPARING_H
+#define SPEC_COMPARE_COMPARING_H
+
+#include <stddef.h>
+
+#include "base/error.h"
+#include "compare/images.h"
+#include "image/image.h"
+
+/* The channels that are measured: A's and B's, pair by pair. */
+struct spec_comparing_pairs {
+	size_t count;
+	size_t *a, *b;
+};
+
+/* Bands made of the channels of one image: sums, those of band i from first[i] on. */
+struct spec_comparing_sums {
+	size_t *first; /* [pairs + 1], or null: the bands are the channels as they are */
+	size_t *channel;
+	double *weight;
+};
+
+struct spec_comparing {
+	struct spec_images *result;
+	const struct spec_images_setup *setup;
+	const struct spec_image *a, *b;
+	struct spec_comparing_pairs bands, others;
+	struct spec_comparing_sums sums[2]; /* of A and of B */
+	/* The wavelengths of the bands that are measured, and the edges, or null. */
+	size_t grid_bands;
+	const double *grid_nm, *grid_edges_nm;
+	struct spec_measure_setup spectral_setup, others_setup;
+	double *weight_xyz, *width_nm;
+	struct spec_window region; /* 0,0 is the corner of the data window */
+};
+
+/* Adds a line to what is different about the images as such. */
+void spec_comparing_say(struct spec_images *result, const char *format, ...)
+	__attribute__((format(printf, 2, 3)));
+
+/* Compares the images as such and pairs their channels. Error: SPEC_ENOMEM. */
+enum spec_status spec_comparing_structure(
+	struct spec_comparing *comparison, struct spec_error *error);
+
+/*
+ * Where the bands differ and the setup allows another grid: plans the sums on the coarser
+ * of both, as far as it lies in the other, and *done is 1. Else *done is 0, and there is
+ * no common stretch, or bins on one side alone. Error: SPEC_ENOMEM.
+ */
+enum spec_status spec_comparing_resample(
+	struct spec_comparing *comparison, int *done, struct spec_error *error);
+
+/* Plans the colours of the bands, or of the channels R, G and B. Errors: those of observers. */
+enum spec_status spec_comparing_colour(
+	struct spec_comparing *comparison, struct spec_error *error);
+
+/* The width of each band that is measured [nm], or 1; 0 for Stokes components but S0. */
+enum spec_status spec_comparing_widths(
+	struct spec_comparing *comparison, struct spec_error *error);
+
+void spec_comparing_free(struct spec_comparing *comparison);
+
+/* A band's whole numbers come out of the decoder as floats, others as they are. */
+static inline int
+spec_comparing_is_whole(const struct spec_channel *channel)
+{
+	return channel->sample == SPEC_SAMPLE_UINT && channel->role == SPEC_ROLE_OTHER;
+}
+
+#endif
