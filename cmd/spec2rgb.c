@@ -17,8 +17,13 @@ static const struct cli_option options[] = {
 	{0, "observer", "1931|1964|2015-2|2015-10|SPD",
 		"colour-matching functions (default: 1931)"},
 	{0, "illuminant", "SPD", "light on an image of reflectance (default: D65)"},
-	{0, "adapt", "none|bradford|cat16",
-		"adapt reflectance to the white of sRGB\n(default: none)"},
+	{0, "space", "NAME|PRIMARIES",
+		"srgb, p3, dci-p3, rec709, rec2020, aces, acescg, adobe, xyz,\n"
+		"lab, xyy, or 'xr,yr xg,yg xb,yb xw,yw' (default: srgb)"},
+	{0, "transfer", "linear|srgb|rec709|rec2020|adobe|dci",
+		"encode whole numbers so (default: as the space has it)"},
+	{0, "adapt", "none|vonkries|bradford|cat02|cat16",
+		"adapt reflectance to the white of the space\n(default: none)"},
 	{'e', "exposure", "EV", "multiply by 2^EV (default: 0)"},
 	{'f', "format", "SUFFIX",
 		"of the output, such as ppm (default: the suffix of -o, else png)"},
@@ -32,14 +37,17 @@ static const struct cli_program program = {
 	.name = "spec2rgb",
 	.arguments = "[OPTION]... [FILE]",
 	.summary =
-		"Show a spectral image as an sRGB picture: PNG, PPM, EXR by the suffix of -o,\n"
-		"any other format through OpenImageIO.",
+		"Show a spectral image as a picture: PNG, PPM, EXR by the suffix of -o, any\n"
+		"other format through OpenImageIO.",
 	.options = options,
 };
 
 struct job {
 	const char *input, *observer, *illuminant, *adapt, *format;
 	const struct spec_model *model; /* or null */
+	struct spec_space space;        /* with the transfer function that is used */
+	const char *space_text;         /* or null, as the next */
+	const struct spec_transfer *transfer;
 	double exposure;
 	int bits;
 	struct spec_settings settings;
@@ -59,6 +67,12 @@ take_option(void *state, const char *name, const char *value, struct spec_error 
 		job->illuminant = value;
 	} else if (strcmp(name, "adapt") == 0) {
 		job->adapt = value;
+	} else if (strcmp(name, "space") == 0) {
+		job->space_text = value;
+		status = spec_space_parse(value, &job->space, error);
+	} else if (strcmp(name, "transfer") == 0) {
+		job->transfer = spec_transfer_find(value, error);
+		status = job->transfer ? SPEC_OK : SPEC_EUSAGE;
 	} else if (strcmp(name, "exposure") == 0) {
 		status = spec_number_parse(
 			value, -100, 100, "the exposure", &job->exposure, error);
@@ -86,6 +100,10 @@ parse(struct cli *cli, struct job *job)
 		job->input = "-";
 	if (job->model && (job->format || job->bits))
 		cli_usage(cli, "--format and --bits are for pictures, not for --model");
+	if (job->model && (job->space_text || job->transfer))
+		cli_usage(cli, "--model has the components of sRGB alone");
+	if (job->transfer)
+		job->space.transfer = job->transfer;
 }
 
 /* The sums that the options ask for. */
@@ -96,7 +114,7 @@ plan(const struct job *job, const struct spec_reader *reader, struct spec_rgb *r
 	struct spec_curve observer = {0}, illuminant = {0};
 	struct spec_rgb_setup setup = {.observer = &observer,
 		.illuminant = &illuminant,
-		.space = spec_space_find("srgb", error),
+		.space = &job->space,
 		.exposure = job->exposure};
 	enum spec_status status = spec_observer_load(job->observer, &observer, error);
 
@@ -135,6 +153,7 @@ develop(struct job *job, struct spec_reader *reader, const struct spec_rgb *rgb,
 	struct spec_develop *result, struct spec_error *error)
 {
 	const struct spec_window *window = &spec_reader_image(reader)->data;
+	struct spec_look look = {.space = &job->space};
 	struct spec_picture_kind kind;
 	struct spec_picture *picture = NULL;
 	struct spec_output output;
@@ -145,15 +164,19 @@ develop(struct job *job, struct spec_reader *reader, const struct spec_rgb *rgb,
 	snprintf(wanted, sizeof wanted, "picture.%s", job->format ? job->format : "");
 	status = spec_picture_choose(
 		job->format ? wanted : job->settings.output, job->bits, &kind, error);
+	if (status == SPEC_OK && job->transfer && job->transfer != &spec_transfer_linear &&
+		kind.sample == SPEC_PICTURE_FLOAT)
+		status = spec_error_set(error, SPEC_EUSAGE,
+			"--transfer is for whole numbers: floats stay linear");
 	if (status == SPEC_OK)
 		status = spec_output_open(&output, job->settings.output, error);
 	if (status != SPEC_OK)
 		return status;
 	status = spec_picture_open(&picture, &kind, &output, spec_window_width(window),
-		spec_window_height(window), spec_space_find("srgb", NULL), error);
+		spec_window_height(window), &job->space, error);
 	if (status == SPEC_OK)
-		status = spec_develop_run(
-			result, reader, rgb, picture, kind.sample, &job->settings, error);
+		status = spec_develop_run(result, reader, rgb, &look, picture, kind.sample,
+			&job->settings, error);
 	spec_picture_close(picture);
 	if (status == SPEC_OK)
 		return spec_output_commit(&output, error);
@@ -164,8 +187,10 @@ develop(struct job *job, struct spec_reader *reader, const struct spec_rgb *rgb,
 int
 main(int argc, char **argv)
 {
-	struct job job = {
-		.observer = "1931", .illuminant = "illuminants/D65", .adapt = "none"};
+	struct job job = {.observer = "1931",
+		.illuminant = "illuminants/D65",
+		.adapt = "none",
+		.space = *spec_space_find("srgb", NULL)};
 	struct spec_error error = {0};
 	struct spec_reader *reader = NULL;
 	struct spec_rgb rgb = {0};

@@ -4,26 +4,22 @@
 #include <string.h>
 
 #include "base/vector.h"
-#include "colour/space.h"
 
 #define BLOCK 256 /* samples at a time */
 
 /* The largest float below 1, which has the largest code at 8 bits as at 16. */
 #define BELOW_ONE 0x1.fffffep-1f
 
-#define LOWEST8 0x1p-13f /* a power of two below the first threshold, 1.518e-4 */
-#define LOWEST8_BITS 0x39000000u
 #define SHIFT8 15 /* bits of a float below those that choose the bucket */
 #define LOW8 ((1u << SHIFT8) - 1)
 
-#define LOWEST16 0x1p-9f /* a power of two below 0.0031308 */
 #define SHIFT16 13
-#define LINEAR_END 0.0031308 /* IEC 61966-2-1:1999 */
+#define LOWEST16 0x1p-20f /* where there is no straight part */
 
 /*
- * A chord in a bucket of relative width h = 2^-10 departs from 65535 (1.055 v^(5/12) -
- * 0.055) by at most 65535 * 1.055 * (5/12)(7/12)/8 * h^2 = .0020: where it comes this
- * near to a half, the formula decides.
+ * A chord in a bucket of relative width h = 2^-10 departs from 65535 a v^p, a <= 1.1, by
+ * at most 65535 * 1.1 * p (1 - p) / 8 * h^2 <= .0022: where it comes this near to a half,
+ * the formula decides.
  */
 #define DOUBT16 .0025
 
@@ -47,13 +43,13 @@ float_of(uint32_t bits)
 
 /* The smallest float that rounds to code or more, searched from the formula's inverse. */
 static float
-find_threshold(int code)
+find_threshold(const struct spec_transfer *transfer, int code)
 {
-	float v = (float)spec_srgb_decode((code - .5) / 255);
+	float v = (float)spec_transfer_decode(transfer, (code - .5) / 255);
 
-	while (255 * spec_srgb_encode(v) >= code - .5)
+	while (255 * spec_transfer_encode(transfer, v) >= code - .5)
 		v = nextafterf(v, 0);
-	while (255 * spec_srgb_encode(v) < code - .5)
+	while (255 * spec_transfer_encode(transfer, v) < code - .5)
 		v = nextafterf(v, 1);
 	return v;
 }
@@ -66,10 +62,10 @@ find_threshold(int code)
 static void
 fill_buckets8(struct spec_encoder *encoder)
 {
-	uint32_t base = LOWEST8_BITS >> SHIFT8, i, first, t;
-	uint32_t code = 0;
+	uint32_t base = bits_of(encoder->lowest8) >> SHIFT8, i, first, t;
+	uint32_t end = bits_of(1) >> SHIFT8, code = 0;
 
-	for (i = 0; i < SPEC_ENCODER_BUCKETS8; i++) {
+	for (i = 0; i < end - base; i++) {
 		first = (base + i) << SHIFT8;
 		while (code < 255 && bits_of(encoder->threshold[code + 1]) <= first)
 			code++;
@@ -80,46 +76,65 @@ fill_buckets8(struct spec_encoder *encoder)
 	}
 }
 
-void
-spec_encoder_init(struct spec_encoder *encoder)
+/* The power of two at or below v, 0 < v <= 1. */
+static float
+power_of_two_below(float v)
 {
-	uint32_t base = bits_of(LOWEST16) >> SHIFT16, i;
+	int exponent;
+
+	(void)frexpf(v, &exponent);
+	return ldexpf(.5f, exponent);
+}
+
+void
+spec_encoder_init(struct spec_encoder *encoder, const struct spec_transfer *transfer)
+{
+	uint32_t base, i, end = bits_of(1) >> SHIFT16;
 	int code;
 
+	encoder->transfer = transfer;
 	encoder->threshold[0] = 0;
 	for (code = 1; code < 256; code++)
-		encoder->threshold[code] = find_threshold(code);
+		encoder->threshold[code] = find_threshold(transfer, code);
+	encoder->lowest8 = power_of_two_below(encoder->threshold[1]);
 	fill_buckets8(encoder);
-	/* The power alone, also below LINEAR_END, so that the chord across it is good. */
-	for (i = 0; i < SPEC_ENCODER_KNOTS16; i++)
+	encoder->lowest16 =
+		transfer->cut > 0 ? power_of_two_below((float)transfer->cut) : LOWEST16;
+	encoder->direct_end = fmaxf((float)transfer->cut, encoder->lowest16);
+	base = bits_of(encoder->lowest16) >> SHIFT16;
+	/* The power alone, also below the cut, so that the chord across it is good. */
+	for (i = 0; i <= end - base; i++)
 		encoder->knot16[i] =
-			65535 *
-			(1.055 * pow(float_of((base + i) << SHIFT16), 1 / 2.4) - .055);
+			65535 * (transfer->scale * pow(float_of((base + i) << SHIFT16),
+							   transfer->power) -
+					transfer->offset);
 }
 
 /*
- * The bits of each float, brought into [LOWEST8, 1), above those of LOWEST8. The
+ * The bits of each float, brought into [lowest, 1), above those of lowest. The
  * comparisons are false for a NaN, which so becomes the lowest.
  */
 SPEC_VECTORISED static void
-clamp_bits8(const float *restrict linear, size_t count, uint32_t *restrict clamped)
+clamp_bits8(const float *restrict linear, size_t count, float lowest,
+	uint32_t *restrict clamped)
 {
+	uint32_t lowest_bits = bits_of(lowest);
 	uint32_t bits;
 	size_t i;
 	float v;
 
 	for (i = 0; i < count; i++) {
 		v = linear[i];
-		v = v > LOWEST8 ? v : LOWEST8;
+		v = v > lowest ? v : lowest;
 		v = v < BELOW_ONE ? v : BELOW_ONE;
 		memcpy(&bits, &v, sizeof bits);
-		clamped[i] = bits - LOWEST8_BITS;
+		clamped[i] = bits - lowest_bits;
 	}
 }
 
 /* The look-up stands alone because gather instructions are slower than single loads. */
 void
-spec_encode_srgb8(const struct spec_encoder *encoder, const float *linear, size_t count,
+spec_encode8(const struct spec_encoder *encoder, const float *linear, size_t count,
 	unsigned char *out, size_t stride)
 {
 	const uint32_t *bucket = encoder->bucket8;
@@ -128,7 +143,7 @@ spec_encode_srgb8(const struct spec_encoder *encoder, const float *linear, size_
 
 	for (; count > 0; count -= n, linear += n, out += n * stride) {
 		n = count < BLOCK ? count : BLOCK;
-		clamp_bits8(linear, n, clamped);
+		clamp_bits8(linear, n, encoder->lowest8, clamped);
 		for (i = 0; i < n; i++) {
 			code = bucket[clamped[i] >> SHIFT8] + (clamped[i] & LOW8);
 			out[i * stride] = (unsigned char)(code >> 16);
@@ -144,21 +159,21 @@ encode16(const struct spec_encoder *encoder, float linear)
 	float v = linear > 0 ? linear : 0;
 
 	v = v < BELOW_ONE ? v : BELOW_ONE;
-	if (v <= LINEAR_END)
-		return (uint16_t)(65535 * spec_srgb_encode(v) + .5);
+	if (v <= encoder->direct_end)
+		return (uint16_t)(65535 * spec_transfer_encode(encoder->transfer, v) + .5);
 	bits = bits_of(v);
-	index = (bits >> SHIFT16) - (bits_of(LOWEST16) >> SHIFT16);
+	index = (bits >> SHIFT16) - (bits_of(encoder->lowest16) >> SHIFT16);
 	part = (bits & ((1u << SHIFT16) - 1)) * (1. / (1u << SHIFT16));
 	scaled = encoder->knot16[index] +
 		 (encoder->knot16[index + 1] - encoder->knot16[index]) * part + .5;
 	whole = floor(scaled);
 	if (scaled - whole < DOUBT16 || scaled - whole > 1 - DOUBT16)
-		return (uint16_t)(65535 * spec_srgb_encode(v) + .5);
+		return (uint16_t)(65535 * spec_transfer_encode(encoder->transfer, v) + .5);
 	return (uint16_t)whole;
 }
 
 void
-spec_encode_srgb16(const struct spec_encoder *encoder, const float *linear, size_t count,
+spec_encode16(const struct spec_encoder *encoder, const float *linear, size_t count,
 	uint16_t *out, size_t stride)
 {
 	size_t i;

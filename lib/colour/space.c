@@ -3,22 +3,51 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/number.h"
+
 #define COUNT(list) (sizeof(list) / sizeof *(list))
 
 /* The rounded chromaticity by which the television and display standards mean D65. */
 #define VIDEO_D65 .3127, .3290
 
+#define ACES_WHITE .32168, .33767 /* SMPTE ST 2065-1:2012 */
+
+#define P3_PRIMARIES                                                                       \
+	{.680, .320}, {.265, .690},                                                        \
+	{                                                                                  \
+		.150, .060                                                                 \
+	}
+#define SRGB_PRIMARIES                                                                     \
+	{.640, .330}, {.300, .600},                                                        \
+	{                                                                                  \
+		.150, .060                                                                 \
+	}
+
+/* Amounts of X, Y and Z are amounts of these primaries. */
+#define XYZ_PRIMARIES {1, 0}, {0, 1}, {0, 0}, {1. / 3, 1. / 3}, &spec_transfer_linear
+
 static const struct spec_space spaces[] = {
 	{"srgb", "sRGB", "IEC 61966-2-1:1999; primaries of ITU-R BT.709-6:2015",
-		{.640, .330}, {.300, .600}, {.150, .060}, {VIDEO_D65}, 1},
+		SRGB_PRIMARIES, {VIDEO_D65}, &spec_transfer_srgb, SPEC_COORDINATES_RGB, 1},
 	{"p3", "Display P3", "primaries of SMPTE EG 432-1:2010, white D65, sRGB's transfer",
-		{.680, .320}, {.265, .690}, {.150, .060}, {VIDEO_D65}, 1},
+		P3_PRIMARIES, {VIDEO_D65}, &spec_transfer_srgb, SPEC_COORDINATES_RGB, 12},
+	{"dci-p3", "DCI-P3", "SMPTE RP 431-2:2011", P3_PRIMARIES, {.314, .351},
+		&spec_transfer_dci, SPEC_COORDINATES_RGB, 11},
+	{"rec709", "ITU-R BT.709", "ITU-R BT.709-6:2015", SRGB_PRIMARIES, {VIDEO_D65},
+		&spec_transfer_rec709, SPEC_COORDINATES_RGB, 1},
 	{"rec2020", "ITU-R BT.2020", "ITU-R BT.2020-2:2015", {.708, .292}, {.170, .797},
-		{.131, .046}, {VIDEO_D65}, 0},
-	{"adobe", "Adobe RGB (1998)", "Adobe RGB (1998) Color Image Encoding, 2005-05",
-		{.6400, .3300}, {.2100, .7100}, {.1500, .0600}, {VIDEO_D65}, 0},
+		{.131, .046}, {VIDEO_D65}, &spec_transfer_rec2020, SPEC_COORDINATES_RGB, 9},
 	{"aces", "ACES2065-1", "SMPTE ST 2065-1:2012", {.73470, .26530}, {.00000, 1.00000},
-		{.00010, -.07700}, {.32168, .33767}, 0},
+		{.00010, -.07700}, {ACES_WHITE}, &spec_transfer_linear,
+		SPEC_COORDINATES_RGB, 0},
+	{"acescg", "ACEScg", "Academy S-2014-004, 2016", {.713, .293}, {.165, .830},
+		{.128, .044}, {ACES_WHITE}, &spec_transfer_linear, SPEC_COORDINATES_RGB, 0},
+	{"adobe", "Adobe RGB (1998)", "Adobe RGB (1998) Color Image Encoding, 2005-05",
+		{.6400, .3300}, {.2100, .7100}, {.1500, .0600}, {VIDEO_D65},
+		&spec_transfer_adobe, SPEC_COORDINATES_RGB, 0},
+	{"xyz", "CIE XYZ", "CIE 015:2018", XYZ_PRIMARIES, SPEC_COORDINATES_XYZ, 10},
+	{"lab", "CIE L*a*b*", "CIE 015:2018", XYZ_PRIMARIES, SPEC_COORDINATES_LAB, 0},
+	{"xyy", "CIE xyY", "CIE 015:2018", XYZ_PRIMARIES, SPEC_COORDINATES_XYY, 0},
 };
 
 /* CIE 15:2004, table T.3: 2 degree observer. E is exact. */
@@ -41,6 +70,21 @@ static const double bradford[9] = {
 static const double cat16[9] = {.401288, .650173, -.051461, -.250268, 1.204414, .045854,
 	-.002079, .048952, .953127};
 
+/* CIE 159:2004: the matrix of CIECAM02. */
+static const double cat02[9] = {
+	.7328, .4296, -.1624, -.7036, 1.6975, .0061, .0030, .0136, .9834};
+
+/* Hunt, Pointer, Estevez, normalised to D65: Fairchild 2013, equation 9.1 (RLAB's M). */
+static const double hunt[9] = {
+	.40024, .70760, -.08081, -.22630, 1.16532, .04570, 0, 0, .91822};
+
+/* By the order of enum spec_adaptation. */
+static const struct {
+	const char *name;
+	const double *channels;
+} adaptations[] = {{"none", identity}, {"bradford", bradford}, {"cat16", cat16},
+	{"vonkries", hunt}, {"cat02", cat02}};
+
 const struct spec_space *
 spec_space_at(size_t index)
 {
@@ -62,7 +106,8 @@ spec_space_find(const char *name, struct spec_error *error)
 		if (strcmp(spaces[i].name, name) == 0)
 			return &spaces[i];
 	spec_error_set(error, SPEC_EUSAGE,
-		"unknown colour space '%s': expected srgb, p3, rec2020, adobe or aces",
+		"unknown colour space '%.100s': expected srgb, p3, dci-p3, rec709, rec2020, "
+		"aces, acescg, adobe, xyz, lab, xyy or 'xr,yr xg,yg xb,yb xw,yw'",
 		name);
 	return NULL;
 }
@@ -78,6 +123,61 @@ spec_white_find(const char *name, struct spec_error *error)
 	spec_error_set(error, SPEC_EUSAGE,
 		"unknown white '%s': expected A, D50, D55, D65, D75 or E", name);
 	return NULL;
+}
+
+/* "x,y", then blanks; text moves behind them. */
+static enum spec_status
+take_chromaticity(const char **text, double xy[2], struct spec_error *error)
+{
+	char number[64];
+
+	for (int i = 0; i < 2; i++) {
+		size_t length = strcspn(*text, i == 0 ? "," : " ");
+
+		if (length == 0 || length >= sizeof number)
+			return SPEC_EUSAGE;
+		memcpy(number, *text, length);
+		number[length] = 0;
+		if (spec_number_parse(number, -10, 10, "a chromaticity", &xy[i], error) !=
+			SPEC_OK)
+			return SPEC_EUSAGE;
+		*text += length;
+		if (i == 0 && *(*text)++ != ',')
+			return SPEC_EUSAGE;
+	}
+	*text += strspn(*text, " ");
+	return SPEC_OK;
+}
+
+enum spec_status
+spec_space_parse(const char *text, struct spec_space *space, struct spec_error *error)
+{
+	const struct spec_space *known;
+	struct spec_space custom = {.name = "custom",
+		.title = "the space of these primaries",
+		.source = "",
+		.transfer = &spec_transfer_srgb};
+	double *xy[4] = {custom.red_xy, custom.green_xy, custom.blue_xy, custom.white_xy};
+	double m[9];
+	enum spec_status status = SPEC_OK;
+
+	if (!strchr(text, ',')) {
+		known = spec_space_find(text, error);
+		if (!known)
+			return SPEC_EUSAGE;
+		*space = *known;
+		return SPEC_OK;
+	}
+	for (int i = 0; i < 4 && status == SPEC_OK; i++)
+		status = take_chromaticity(&text, xy[i], NULL);
+	if (status != SPEC_OK || *text != 0)
+		return spec_error_set(error, SPEC_EUSAGE,
+			"a colour space is a name or 'xr,yr xg,yg xb,yb xw,yw'");
+	if (!(custom.white_xy[1] > 0))
+		return spec_error_set(
+			error, SPEC_EUSAGE, "the white of a space needs y above 0");
+	*space = custom;
+	return spec_space_from_xyz(space, m, error) == SPEC_OK ? SPEC_OK : SPEC_EUSAGE;
 }
 
 void
@@ -127,16 +227,15 @@ enum spec_status
 spec_adaptation_find(
 	const char *name, enum spec_adaptation *method, struct spec_error *error)
 {
-	if (strcmp(name, "none") == 0)
-		*method = SPEC_ADAPTATION_NONE;
-	else if (strcmp(name, "bradford") == 0)
-		*method = SPEC_ADAPTATION_BRADFORD;
-	else if (strcmp(name, "cat16") == 0)
-		*method = SPEC_ADAPTATION_CAT16;
-	else
-		return spec_error_set(error, SPEC_EUSAGE,
-			"unknown adaptation '%s': expected bradford, cat16 or none", name);
-	return SPEC_OK;
+	for (size_t i = 0; i < COUNT(adaptations); i++) {
+		if (strcmp(adaptations[i].name, name) == 0) {
+			*method = (enum spec_adaptation)i;
+			return SPEC_OK;
+		}
+	}
+	return spec_error_set(error, SPEC_EUSAGE,
+		"unknown adaptation '%s': expected none, vonkries, bradford, cat02 or cat16",
+		name);
 }
 
 /* The three responses to a white of Y = 1. */
@@ -162,7 +261,7 @@ enum spec_status
 spec_adaptation_matrix(enum spec_adaptation method, const double from_xyz[3],
 	const double to_xyz[3], double m[9], struct spec_error *error)
 {
-	const double *channels = method == SPEC_ADAPTATION_CAT16 ? cat16 : bradford;
+	const double *channels = adaptations[method].channels;
 	double from[3], to[3], scaled[9], inverse[9];
 	enum spec_status status;
 	int c, r;
@@ -182,22 +281,6 @@ spec_adaptation_matrix(enum spec_adaptation method, const double from_xyz[3],
 			scaled[3 * r + c] = channels[3 * r + c] * (to[r] / from[r]);
 	spec_matrix_multiply(inverse, scaled, m);
 	return SPEC_OK;
-}
-
-double
-spec_srgb_encode(double linear)
-{
-	if (linear <= 0.0031308)
-		return 12.92 * linear;
-	return 1.055 * pow(linear, 1 / 2.4) - .055;
-}
-
-double
-spec_srgb_decode(double encoded)
-{
-	if (encoded <= 0.04045)
-		return encoded / 12.92;
-	return pow((encoded + .055) / 1.055, 2.4);
 }
 
 void

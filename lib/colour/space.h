@@ -1,5 +1,5 @@
 /*
- * RGB colour spaces, white points, chromatic adaptation, and sRGB's transfer function.
+ * Colour spaces of three primaries, white points and chromatic adaptation.
  * Matrices are 3 x 3, row by row, and act on columns: out[r] = sum of m[3 * r + c] in[c].
  * XYZ is of the CIE 1931 observer, with Y = 1 for white.
  */
@@ -9,13 +9,24 @@
 #include <stddef.h>
 
 #include "base/error.h"
+#include "colour/transfer.h"
+
+/* What is told of a colour once its amounts of the primaries are known. */
+enum spec_coordinates {
+	SPEC_COORDINATES_RGB, /* the amounts: red, green and blue */
+	SPEC_COORDINATES_XYZ, /* the amounts, of the primaries X, Y and Z */
+	SPEC_COORDINATES_LAB, /* CIE L*a*b*, of X, Y and Z beside a white */
+	SPEC_COORDINATES_XYY  /* chromaticity x and y, and Y */
+};
 
 struct spec_space {
 	const char *name;   /* as on the command line */
 	const char *title;  /* for people */
 	const char *source; /* the standard, with its year */
 	double red_xy[2], green_xy[2], blue_xy[2], white_xy[2];
-	int srgb_transfer; /* integer samples are encoded by sRGB's transfer function */
+	const struct spec_transfer *transfer; /* of whole numbers; null: linear */
+	enum spec_coordinates coordinates;
+	int cicp; /* ColourPrimaries of ITU-T H.273 (07/2024), table 2; 0: none */
 };
 
 struct spec_white {
@@ -31,6 +42,14 @@ const struct spec_white *spec_white_at(size_t index);
 /* The one of that name, or null with SPEC_EUSAGE and the known names in the message. */
 const struct spec_space *spec_space_find(const char *name, struct spec_error *error);
 const struct spec_white *spec_white_find(const char *name, struct spec_error *error);
+
+/*
+ * Spaces as users write them: a name, or four chromaticities "xr,yr xg,yg xb,yb xw,yw" of
+ * red, green, blue and white, whose space has the name "custom" and sRGB's transfer
+ * function. Errors (SPEC_EUSAGE): neither of them; primaries that make no space.
+ */
+enum spec_status spec_space_parse(
+	const char *text, struct spec_space *space, struct spec_error *error);
 
 /* XYZ with Y = 1 of a chromaticity; y must not be 0. */
 void spec_white_xyz(const double xy[2], double xyz[3]);
@@ -48,10 +67,12 @@ enum spec_status spec_space_from_xyz(
 enum spec_adaptation {
 	SPEC_ADAPTATION_NONE,     /* identity: XYZ is kept */
 	SPEC_ADAPTATION_BRADFORD, /* linearised, as in ICC.1 */
-	SPEC_ADAPTATION_CAT16
+	SPEC_ADAPTATION_CAT16,
+	SPEC_ADAPTATION_VON_KRIES,
+	SPEC_ADAPTATION_CAT02
 };
 
-/* bradford, cat16 or none; else SPEC_EUSAGE. */
+/* none, vonkries, bradford, cat02 or cat16; else SPEC_EUSAGE. */
 enum spec_status spec_adaptation_find(
 	const char *name, enum spec_adaptation *method, struct spec_error *error);
 
@@ -62,21 +83,12 @@ enum spec_status spec_adaptation_find(
  * Error:    SPEC_ERANGE  a white with Y not positive or with no positive response in
  *                        one of the method's three channels
  * Source:   von Kries' rule in the channels of Lam 1985 (Bradford, as in ICC.1:2010
- *           annex E) or of Li, Li, Wang et al. 2017 (CAT16).
+ *           annex E), of Li, Li, Wang et al. 2017 (CAT16), of CIE 159:2004 (CAT02), or in
+ *           the cones of Hunt, Pointer and Estevez, made for D65 (von Kries).
  */
 enum spec_status spec_adaptation_matrix(enum spec_adaptation method,
 	const double from_xyz[3], const double to_xyz[3], double m[9],
 	struct spec_error *error);
-
-/*
- * sRGB's transfer function and its inverse.
- * Given:    linear, encoded  without unit, nominally in [0, 1]; below it the straight
- *                            part goes on, above it the power; NaN stays NaN
- * Source:   IEC 61966-2-1:1999: 12.92 v up to 0.0031308, else 1.055 v^(1/2.4) - 0.055;
- *           decoding divides at 0.04045.
- */
-double spec_srgb_encode(double linear);
-double spec_srgb_decode(double encoded);
 
 /* out = a b (b acts first); out may be a or b. */
 void spec_matrix_multiply(const double a[9], const double b[9], double out[9]);

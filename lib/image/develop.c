@@ -5,11 +5,13 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "colour/coordinates.h"
 #include "colour/encode.h"
 #include "image/stream.h"
 
 struct development {
 	const struct spec_rgb *rgb;
+	const struct spec_look *look;
 	struct spec_picture *picture;
 	enum spec_picture_sample sample;
 	struct spec_encoder encoder;
@@ -67,10 +69,10 @@ encode_row(const struct development *development, const float *const linear[3],
 
 	for (size_t i = 0; i < 3; i++) {
 		if (development->sample == SPEC_PICTURE_U8) {
-			spec_encode_srgb8(
+			spec_encode8(
 				&development->encoder, linear[i], width, samples + i, 3);
 		} else if (development->sample == SPEC_PICTURE_U16) {
-			spec_encode_srgb16(&development->encoder, linear[i], width,
+			spec_encode16(&development->encoder, linear[i], width,
 				(uint16_t *)(void *)samples + i, 3);
 		} else {
 			float *to = (float *)(void *)samples + i;
@@ -97,6 +99,8 @@ kernel(void *state, struct spec_stream_worker *worker, int line, struct spec_err
 	spec_rgb_row(development->rgb, plane, width, linear[0], linear[1], linear[2]);
 	find_nonfinite(
 		(const float *const *)linear, width, (struct row *)(void *)worker->payload);
+	spec_coordinates_row(development->look->space->coordinates, development->rgb->white,
+		linear, width);
 	encode_row(development, (const float *const *)linear,
 		worker->payload + sizeof(struct row));
 	return SPEC_OK;
@@ -126,9 +130,9 @@ deliver(void *state, const unsigned char *payload, int line, int count,
 
 enum spec_status
 spec_develop_run(struct spec_develop *result, struct spec_reader *reader,
-	const struct spec_rgb *rgb, struct spec_picture *picture,
-	enum spec_picture_sample sample, const struct spec_settings *settings,
-	struct spec_error *error)
+	const struct spec_rgb *rgb, const struct spec_look *look,
+	struct spec_picture *picture, enum spec_picture_sample sample,
+	const struct spec_settings *settings, struct spec_error *error)
 {
 	const struct spec_image *image = spec_reader_image(reader);
 	struct development *development =
@@ -142,6 +146,7 @@ spec_develop_run(struct spec_develop *result, struct spec_reader *reader,
 		for (size_t i = 0; i < rgb->terms; i++)
 			wanted[rgb->channel[i]] = 1;
 		*development = (struct development){.rgb = rgb,
+			.look = look,
 			.picture = picture,
 			.sample = sample,
 			.result = result,
@@ -150,7 +155,9 @@ spec_develop_run(struct spec_develop *result, struct spec_reader *reader,
 		/* Rounded up, so that the next row's header is aligned. */
 		development->row_bytes =
 			(3 * development->width * sample_bytes(sample) + 7) / 8 * 8;
-		spec_encoder_init(&development->encoder);
+		spec_encoder_init(&development->encoder, look->space->transfer
+								 ? look->space->transfer
+								 : &spec_transfer_linear);
 		stream.first_line = image->data.y0;
 		stream.lines = (int)spec_window_height(&image->data);
 		stream.lines_in = 1;

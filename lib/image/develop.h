@@ -8,6 +8,11 @@
 #include "image/rgb.h"
 #include "image/settings.h"
 
+/* How linear components become samples. */
+struct spec_look {
+	const struct spec_space *space;
+};
+
 /* What was seen on the way. */
 struct spec_develop {
 	long long nonfinite;  /* pixels with a red, green or blue that is not finite */
@@ -17,11 +22,12 @@ struct spec_develop {
 /*
  * Reads all lines of an image, sums them by the plan and writes them to a picture
  * of the data window's size. Integer samples are encoded by the space's transfer
- * function and clipped to 0..1; NaN becomes black. Floats stay linear.
+ * function and clipped to 0..1; NaN becomes black. Floats stay linear, or are other
+ * coordinates of colour, as the space has them.
  */
 enum spec_status spec_develop_run(struct spec_develop *develop, struct spec_reader *reader,
-	const struct spec_rgb *rgb, struct spec_picture *picture,
-	enum spec_picture_sample sample, const struct spec_settings *settings,
-	struct spec_error *error);
+	const struct spec_rgb *rgb, const struct spec_look *look,
+	struct spec_picture *picture, enum spec_picture_sample sample,
+	const struct spec_settings *settings, struct spec_error *error);
 
 #endif

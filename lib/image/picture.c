@@ -158,6 +158,11 @@ spec_picture_open(struct spec_picture **result, const struct spec_picture_kind *
 	*result = NULL;
 	if (status != SPEC_OK)
 		return status;
+	if (space && space->coordinates != SPEC_COORDINATES_RGB &&
+		kind->format != SPEC_PICTURE_EXR)
+		return spec_error_set(error, SPEC_EUNSUPPORTED,
+			"unable to write '%s': only OpenEXR (.exr) holds %s", output->path,
+			space->title);
 	if (output->terminal)
 		return spec_error_set(error, SPEC_EUSAGE,
 			"refusing to write a picture to a terminal; use -o FILE or a pipe");

@@ -52,10 +52,10 @@ struct spec_picture;
 /*
  * Begins a picture. The output must live as long as the picture; committing or
  * abandoning it stays the caller's. space: what the samples' numbers mean, or null:
- * the file does not say. Integers are encoded by sRGB's transfer function where
- * space->srgb_transfer is set, and are linear otherwise.
+ * the file does not say. Integers are encoded by space->transfer, floats are linear.
  * Errors: the output is a terminal (SPEC_EUSAGE); no pixels, or more than
- * SPEC_PICTURE_MOST_PIXELS (SPEC_ERANGE); what the system or the format refuses.
+ * SPEC_PICTURE_MOST_PIXELS (SPEC_ERANGE); coordinates other than RGB in a format other
+ * than OpenEXR (SPEC_EUNSUPPORTED); what the system or the format refuses.
  */
 enum spec_status spec_picture_open(struct spec_picture **picture,
 	const struct spec_picture_kind *kind, struct spec_output *output, size_t width,

@@ -48,9 +48,11 @@ name_colour(const struct spec_picture *picture)
 		return "Linear";
 	if (!space)
 		return NULL;
-	if (!space->srgb_transfer)
+	if (!space->transfer || space->transfer == &spec_transfer_linear)
 		return "Linear";
-	return strcmp(space->name, "srgb") == 0 ? "sRGB" : NULL;
+	return strcmp(space->name, "srgb") == 0 && space->transfer == &spec_transfer_srgb
+		       ? "sRGB"
+		       : NULL;
 }
 
 static int

@@ -89,21 +89,36 @@ is_inside(const double xy[2])
 	return xy[0] >= 0 && xy[1] >= 0;
 }
 
+/* Times 100000; 0 where the function is not near a power. */
+static png_fixed_point
+gamma_of(const struct spec_transfer *transfer)
+{
+	if (!transfer)
+		return PNG_FP_1;
+	if (transfer == &spec_transfer_srgb)
+		return GAMMA_SRGB;
+	if (transfer->offset != 0)
+		return 0;
+	return (png_fixed_point)(PNG_FP_1 * transfer->power + .5);
+}
+
 /* The sRGB chunk says all; other spaces are told by gAMA and cHRM, as far as they can be. */
 static void
 say_space(struct state *state)
 {
 	const struct spec_space *space = state->picture->space;
+	png_fixed_point gamma;
 
 	if (!space)
 		return;
-	if (strcmp(space->name, "srgb") == 0) {
+	gamma = gamma_of(space->transfer);
+	if (strcmp(space->name, "srgb") == 0 && space->transfer == &spec_transfer_srgb) {
 		png_set_sRGB_gAMA_and_cHRM(
 			state->png, state->info, PNG_sRGB_INTENT_RELATIVE);
 		return;
 	}
-	png_set_gAMA_fixed(
-		state->png, state->info, space->srgb_transfer ? GAMMA_SRGB : PNG_FP_1);
+	if (gamma > 0)
+		png_set_gAMA_fixed(state->png, state->info, gamma);
 	/* PNG holds no negative chromaticities, which ACES2065-1 has. */
 	if (is_inside(space->red_xy) && is_inside(space->green_xy) &&
 		is_inside(space->blue_xy))

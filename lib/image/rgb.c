@@ -137,30 +137,34 @@ collect_terms(const struct spec_image *image, const struct spec_rgb_setup *setup
 
 static enum spec_status
 matrix_of(const struct spec_image *image, const struct spec_rgb_setup *setup, double m[9],
-	struct spec_error *error)
+	double white[3], struct spec_error *error)
 {
 	static const double identity[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
-	double adaptation[9], from[3], to[3];
+	int reflective = image->role == SPEC_ROLE_REFLECTIVE,
+	    plain = setup->space->coordinates == SPEC_COORDINATES_RGB;
+	const double *to_xy =
+		plain ? setup->space->white_xy : spec_white_find("D50", error)->xy;
+	double adaptation[9], to[3];
 	enum spec_status status = SPEC_OK;
 
 	if (spec_observer_is_xyz(setup->observer))
 		status = spec_space_from_xyz(setup->space, m, error);
-	else if (setup->adaptation == SPEC_ADAPTATION_NONE)
+	else if (setup->adaptation == SPEC_ADAPTATION_NONE && plain)
 		memcpy(m, identity, sizeof identity);
 	else
 		status = spec_error_set(error, SPEC_EUSAGE,
-			"observer '%.200s' has no X, Y and Z to adapt to another white",
-			setup->observer->title);
-	if (status != SPEC_OK || image->role != SPEC_ROLE_REFLECTIVE ||
-		setup->adaptation == SPEC_ADAPTATION_NONE)
+			"observer '%.200s' has no X, Y and Z to adapt to another white%s",
+			setup->observer->title, plain ? "" : ", or to make Lab or xyY of");
+	if (status == SPEC_OK)
+		status = spec_observer_white(setup->observer,
+			reflective ? setup->illuminant : NULL, white, error);
+	if (status != SPEC_OK || !reflective || setup->adaptation == SPEC_ADAPTATION_NONE)
 		return status;
-	status = spec_observer_white(setup->observer, setup->illuminant, from, error);
-	if (status != SPEC_OK)
-		return status;
-	spec_white_xyz(setup->space->white_xy, to);
-	status = spec_adaptation_matrix(setup->adaptation, from, to, adaptation, error);
+	spec_white_xyz(to_xy, to);
+	status = spec_adaptation_matrix(setup->adaptation, white, to, adaptation, error);
 	if (status == SPEC_OK)
 		spec_matrix_multiply(m, adaptation, m);
+	memcpy(white, to, sizeof to);
 	return status;
 }
 
@@ -174,7 +178,7 @@ fill_plan(struct spec_rgb *rgb, const struct spec_image *image,
 		collect_terms(image, setup, &terms, room, &rgb->outside, error);
 
 	if (status == SPEC_OK)
-		status = matrix_of(image, setup, m, error);
+		status = matrix_of(image, setup, m, rgb->white, error);
 	rgb->terms = terms.count;
 	for (size_t i = 0; i < rgb->terms && status == SPEC_OK; i++) {
 		double xyz[3] = {

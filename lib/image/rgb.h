@@ -13,17 +13,26 @@ struct spec_rgb_setup {
 	/* Where it sees no XYZ, its signals are the RGB, of no space, and not adapted. */
 	const struct spec_curve *observer;
 	const struct spec_curve *illuminant; /* of reflective images; null: equal energy */
-	enum spec_adaptation adaptation; /* of reflective images, to the space's white */
+	/* Of reflective images, to the space's white, or to D50 where it has no RGB. */
+	enum spec_adaptation adaptation;
 	const struct spec_space *space;
 	double exposure; /* in stops: everything is multiplied by 2^exposure */
 };
 
-/* The sums: a channel of the image and what it adds to red, green and blue. */
+/*
+ * The sums: a channel of the image and what it adds to red, green and blue, or to X, Y and
+ * Z where the space has no RGB.
+ */
 struct spec_rgb {
 	size_t terms;
 	size_t *channel;
 	double *weight; /* [3 * terms]: red's, then green's, then blue's */
 	double outside; /* fraction of Y that the image's range leaves out */
+	/*
+	 * XYZ, with Y = 1, of what is white: of light, equal energy; of reflectance, the
+	 * perfect reflector, adapted.
+	 */
+	double white[3];
 };
 
 /*

@@ -1,4 +1,4 @@
-/* A linear RGB picture as an OpenEXR image. */
+/* A picture of linear RGB, or of other coordinates of colour, as an OpenEXR image. */
 #include <stdlib.h>
 
 #include "base/memory.h"
@@ -8,7 +8,15 @@
 
 #define CHANNELS 3
 
+/* By enum spec_coordinates: the channels in the order of a file, by their names. */
+static const struct layout {
+	const char *name[CHANNELS];
+	int component[CHANNELS]; /* of a pixel as it is given */
+} layouts[] = {{{"B", "G", "R"}, {2, 1, 0}}, {{"X", "Y", "Z"}, {0, 1, 2}},
+	{{"L", "a", "b"}, {0, 1, 2}}, {{"Y", "x", "y"}, {2, 0, 1}}};
+
 struct state {
+	const struct layout *layout;
 	struct spec_image image;
 	struct spec_writer *writer;
 	struct spec_packer *packer;
@@ -21,7 +29,8 @@ say_space(
 {
 	float xy[8];
 
-	if (!space)
+	/* Other coordinates do not depend on primaries. */
+	if (!space || space->coordinates != SPEC_COORDINATES_RGB)
 		return SPEC_OK;
 	for (int i = 0; i < 2; i++) {
 		xy[i] = (float)space->red_xy[i];
@@ -35,16 +44,15 @@ say_space(
 
 static enum spec_status
 describe(struct spec_image *image, const struct spec_picture *picture,
-	struct spec_error *error)
+	const struct layout *layout, struct spec_error *error)
 {
-	static const char *const names[CHANNELS] = {"B", "G", "R"};
 	enum spec_status status = SPEC_OK;
 
 	image->data.x1 = image->display.x1 = (int)picture->width;
 	image->data.y1 = image->display.y1 = (int)picture->height;
 	image->pixel_aspect_ratio = image->screen_window_width = 1;
 	for (int i = 0; i < CHANNELS && status == SPEC_OK; i++)
-		status = spec_image_add_channel(image, names[i],
+		status = spec_image_add_channel(image, layout->name[i],
 			picture->kind.half ? SPEC_SAMPLE_HALF : SPEC_SAMPLE_FLOAT, error);
 	if (status == SPEC_OK)
 		status = say_space(image, picture->space, error);
@@ -62,7 +70,9 @@ open_exr(struct spec_picture *picture, struct spec_error *error)
 	picture->state = state;
 	if (!state)
 		return SPEC_ENOMEM;
-	status = describe(&state->image, picture, error);
+	state->layout = &layouts[picture->space ? picture->space->coordinates
+						: SPEC_COORDINATES_RGB];
+	status = describe(&state->image, picture, state->layout, error);
 	if (status == SPEC_OK)
 		status = spec_writer_open(
 			&state->writer, &state->image, picture->output, -1, error);
@@ -76,6 +86,7 @@ write_exr(struct spec_picture *picture, const void *rows, size_t count,
 	struct spec_error *error)
 {
 	struct state *state = picture->state;
+	const int *component = state->layout->component;
 	const float *sample = rows;
 	enum spec_status status = SPEC_OK;
 
@@ -87,9 +98,9 @@ write_exr(struct spec_picture *picture, const void *rows, size_t count,
 		if (status != SPEC_OK)
 			break;
 		for (size_t x = 0; x < picture->width; x++, sample += CHANNELS) {
-			plane[0][x] = sample[2];
-			plane[1][x] = sample[1];
-			plane[2][x] = sample[0];
+			plane[0][x] = sample[component[0]];
+			plane[1][x] = sample[component[1]];
+			plane[2][x] = sample[component[2]];
 		}
 		status = spec_packer_end(state->packer, y, error);
 	}

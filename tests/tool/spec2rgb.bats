@@ -219,7 +219,7 @@ camera() {
 
 @test "--adapt makes a white of every illuminant's white" {
   spectral white.exr --kind T --grid 360:830:5 --pattern constant:0.5
-  for adapt in bradford cat16; do
+  for adapt in vonkries bradford cat02 cat16; do
     quiet spec2rgb --illuminant A --adapt $adapt white.exr -o $adapt.ppm
     is '188 188 188' $adapt.ppm 0 0
   done
@@ -604,4 +604,100 @@ four() {
   fails_cleanly spec2rgb --model hsv a.exr -o x.png
   fails_cleanly spec2rgb --model hsv a.exr -o x.tif
   no_leftovers . a.exr yuv.exr four.exr said
+}
+
+# Spaces
+
+# near WANTED TOLERANCE NAME...: the channels of a pixel, as 'layers --print' has them on stdin.
+near() {
+  local wanted=$1 tolerance=$2
+  shift 2
+  awk -v wanted="$wanted" -v tolerance="$tolerance" -v names="$*" '
+    { of[$1] = $2 }
+    END {
+      n = split(wanted, want, " "); split(names, name, " ")
+      for (i = 1; i <= n; i++) {
+        off = of[name[i]] - want[i]
+        if (!(name[i] in of) || !(off <= tolerance && off >= -tolerance)) { print name[i], of[name[i]], want[i]; bad = 1 }
+      }
+      exit bad
+    }' >&2
+}
+
+@test "--space: the same light in every space, by the matrices of the standards" {
+  four
+  spec2rgb --space xyz four.exr -o xyz.exr
+  has_channels xyz.exr X Y Z
+  spec2rgb --space xyy four.exr -o xyy.exr
+  has_channels xyy.exr Y x y
+  spec2rgb --space p3 four.exr -o p3.exr
+  spec2rgb --space acescg four.exr -o acescg.exr
+  spec2rgb --space '.68,.32 .265,.69 .15,.06 .3127,.329' four.exr -o own.exr
+  exrheader own.exr >own; exrheader p3.exr >p3
+  cmp <(grep -A4 chroma own) <(grep -A4 chroma p3)
+  run ! grep chroma <(exrheader xyz.exr)
+  for at in 0,0 1,0 0,1 1,1; do
+    read -r x y z < <(layers --print $at xyz.exr | awk '{ of[$1] = $2 } END { print of["X"], of["Y"], of["Z"] }')
+    layers --print $at xyy.exr | near "$(awk -v x="$x" -v y="$y" -v z="$z" 'BEGIN { s = x + y + z; print x / s, y / s, y }')" 1e-5 x y Y
+    # From XYZ: SMPTE EG 432-1 with D65, and Academy S-2014-004's inverse, as printed.
+    layers --print $at p3.exr | near "$(awk -v x="$x" -v y="$y" -v z="$z" 'BEGIN {
+      print 2.4934969 * x - 0.9313836 * y - 0.4027108 * z, -0.8294890 * x + 1.7626641 * y + 0.0236247 * z,
+        0.0358458 * x - 0.0761724 * y + 0.9568845 * z }')" 1e-5 R G B
+    layers --print $at acescg.exr | near "$(awk -v x="$x" -v y="$y" -v z="$z" 'BEGIN {
+      print 1.6410233797 * x - 0.3248032942 * y - 0.2364246952 * z, -0.6636628587 * x + 1.6153315917 * y + 0.0167563477 * z,
+        0.0117218943 * x - 0.0082844420 * y + 0.9883948585 * z }')" 1e-5 R G B
+    cmp <(layers --print $at own.exr) <(layers --print $at p3.exr)
+  done
+}
+
+@test "--space lab: white is 100 0 0 under every light, half of it L* 76.07" {
+  spectral half.exr --kind T --grid 360:830:5 --pattern constant:0.5
+  spectral light.exr --grid 360:830:5 --pattern constant:0.5
+  # 116 * 0.5^(1/3) - 16 = 76.0693
+  for option in '--illuminant A' '--illuminant D65' '--illuminant A --adapt cat02'; do
+    # shellcheck disable=SC2086 # several words
+    spec2rgb $option --space lab half.exr -o lab.exr
+    has_channels lab.exr L a b
+    layers --print 0,0 lab.exr | near '76.0693 0 0' 2e-2 L a b
+  done
+  spec2rgb --space lab light.exr -o lab.exr
+  layers --print 0,0 lab.exr | near '76.0693 0 0' 2e-2 L a b
+  spec2rgb --space xyy --illuminant A --adapt vonkries half.exr -o xyy.exr
+  layers --print 0,0 xyy.exr | near '0.34567 0.35851 0.5' 2e-4 x y Y
+}
+
+@test "--transfer and the spaces' own functions, on half the light" {
+  # At 16 bits: 65535 times 0.5^(1/2.6), 0.5^(256/563), 1.099 * 0.5^0.45 - 0.099, 0.5; D65's table
+  # and the spaces' white differ by 2e-4.
+  spectral grey.exr --kind T --grid 360:830:5 --pattern constant:0.5
+  for pair in dci:50199 adobe:47818 rec709:46236 rec2020:46233 linear:32768 srgb:48192; do
+    spec2rgb --space p3 --transfer "${pair%:*}" --adapt bradford --bits 16 grey.exr -o grey.ppm
+    for code in $(pixel grey.ppm 0 0); do
+      [ $((code - ${pair#*:})) -le 2 ] && [ $((${pair#*:} - code)) -le 2 ] || complain "$pair: $code"
+    done
+  done
+  for pair in dci-p3:dci adobe:adobe rec709:rec709 rec2020:rec2020 aces:linear acescg:linear p3:srgb; do
+    spec2rgb --space "${pair%:*}" --bits 16 grey.exr -o own.ppm
+    spec2rgb --space "${pair%:*}" --transfer "${pair#*:}" --bits 16 grey.exr -o named.ppm
+    cmp own.ppm named.ppm
+  done
+}
+
+@test "spaces, functions and adaptations that are refused" {
+  spectral a.exr
+  fails_cleanly spec2rgb --space prophoto a.exr -o a.png
+  [[ $stderr = *"'prophoto'"*acescg* ]]
+  fails_cleanly spec2rgb --space '.64,.33 .3,.6 .15,.06' a.exr -o a.png
+  fails_cleanly spec2rgb --space '.1,.1 .2,.2 .3,.3 .3,.3' a.exr -o a.png
+  for space in xyz lab xyy; do
+    fails_cleanly spec2rgb --space $space a.exr -o a.png
+    fails_cleanly spec2rgb --space $space a.exr -o a.tif
+    [[ $stderr = *'only OpenEXR'* ]]
+  done
+  fails_cleanly spec2rgb --transfer gamma a.exr -o a.png
+  fails_cleanly spec2rgb --transfer dci a.exr -o a.exr.exr
+  [[ $stderr = *'floats stay linear' ]]
+  fails_cleanly spec2rgb --adapt cat97 a.exr -o a.png
+  fails_cleanly spec2rgb --model hsv --space p3 a.exr -o x.exr
+  no_leftovers . a.exr
 }

@@ -408,7 +408,7 @@ gfc        1' ] || complain "$answer"
   [[ $answer != *"$tall"* ]]
   for sensors in cie2006-lms-2 stiles-burch-1959 v-scotopic; do
     fails_cleanly specdiff --observer $sensors a.exr b.exr
-    [[ $stderr = *"needs x, y, z" ]] || complain "$stderr"
+    [[ $stderr = *"need x, y, z" ]] || complain "$stderr"
   done
 }
 

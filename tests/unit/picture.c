@@ -199,7 +199,8 @@ test_png_spaces(void **state)
 	static const struct {
 		const char *name;
 		double gamma, white_x;
-	} spaces[] = {{"p3", .45455, .3127}, {"rec2020", 1, .3127}, {"aces", 1, 0}};
+	} spaces[] = {{"p3", .45455, .3127}, {"rec2020", 0, .3127},
+		{"adobe", .45471, .3127}, {"dci-p3", .38462, .314}, {"aces", 1, 0}};
 	struct fixture *fixture = *state;
 
 	for (size_t i = 0; i < COUNT(spaces); i++) {
