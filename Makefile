@@ -27,7 +27,7 @@ endif
 
 # Debian packages that the build, the tests and the demo need beside gcc, make and git, and
 # those that only lint, bench and fuzz need.
-DEPS = g++ pkg-config libopenexr-dev libdeflate-dev libpng-dev libopenimageio-dev \
+DEPS = g++ pkg-config libopenexr-dev libdeflate-dev libpng-dev liblcms2-dev libopenimageio-dev \
 	libembree-dev libcmocka-dev bats openexr mandoc jq
 LINTDEPS = clang-format clang-tidy cppcheck shellcheck mandoc
 BENCHDEPS = openimageio-tools
@@ -59,7 +59,7 @@ EXRLIBS = -lOpenEXRCore-3_1
 OIIOFLAGS = $(shell pkg-config --cflags OpenImageIO)
 OIIOLIBS = $(shell pkg-config --libs OpenImageIO)
 CPPFLAGS = -Ilib -D_GNU_SOURCE -DSPEC_VERSION='"$(VERSION)"'
-LDLIBS = $(EXRLIBS) -ldeflate -lpng16 -ldl -pthread -lm
+LDLIBS = $(EXRLIBS) -ldeflate -lpng16 -Wl,--as-needed -llcms2 -Wl,--no-as-needed -ldl -pthread -lm
 # Paths go to and fro between files at every surface. clang's would need another AR and ld.
 PATHFLAGS = $(if $(filter gcc%,$(CC)),-flto=auto)
 ALLCFLAGS = -std=c11 $(CFLAGS) $(MATHFLAGS) $(WARNFLAGS) $(CWARNFLAGS) $(SANFLAGS) -pthread -fPIC

@@ -154,7 +154,7 @@ spec_space_parse(const char *text, struct spec_space *space, struct spec_error *
 {
 	const struct spec_space *known;
 	struct spec_space custom = {.name = "custom",
-		.title = "the space of these primaries",
+		.title = "a custom RGB space",
 		.source = "",
 		.transfer = &spec_transfer_srgb};
 	double *xy[4] = {custom.red_xy, custom.green_xy, custom.blue_xy, custom.white_xy};

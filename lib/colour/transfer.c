@@ -17,7 +17,7 @@ const struct spec_transfer spec_transfer_rec709 = {
 #define ALPHA 1.09929682680944
 #define BETA .018053968510807
 const struct spec_transfer spec_transfer_rec2020 = {"rec2020",
-	"ITU-R BT.2020-2:2015, table 4", 4.5, BETA, ALPHA, .45, ALPHA - 1, 4.5 * BETA, 15};
+	"ITU-R BT.2020-2:2015, table 4", 4.5, BETA, ALPHA, .45, ALPHA - 1, 4.5 * BETA, 14};
 
 /* Adobe RGB (1998) Color Image Encoding, 2005-05, 4.3.4.2: 2 + 51/256. */
 const struct spec_transfer spec_transfer_adobe = {

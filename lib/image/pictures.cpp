@@ -139,6 +139,10 @@ open_output(Picture &picture, const struct spec_pictures_request &request,
 		picture.sample);
 	if (request.colour)
 		spec.attribute("oiio:ColorSpace", request.colour);
+	if (request.profile)
+		spec.attribute("ICCProfile",
+			OIIO::TypeDesc(OIIO::TypeDesc::UINT8, (int)request.profile_bytes),
+			request.profile);
 	/* Its Exif directory fails, and with it the whole file. Other formats ignore this. */
 	spec.attribute("tiff:write_exif", 0);
 	std::string name = std::string("picture.") + request.suffix;

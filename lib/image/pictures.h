@@ -20,8 +20,10 @@ struct spec_pictures_request {
 	const char *suffix; /* without the dot */
 	size_t width, height;
 	size_t channels;
-	int bits;           /* 8, 16: integers; 32: floats */
-	const char *colour; /* OpenImageIO's name of the colour space, or null */
+	int bits;                     /* 8, 16: integers; 32: floats */
+	const char *colour;           /* OpenImageIO's name of the colour space, or null */
+	const unsigned char *profile; /* of ICC, for formats that hold it, or null */
+	size_t profile_bytes;
 };
 
 /* What a file that is read holds. */

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "colour/profile.h"
 #include "image/encoder.h"
 #include "image/plugin.h"
 
@@ -14,7 +15,8 @@
 struct state {
 	struct spec_plugin loaded;
 	void *picture;
-	float *row; /* of HDR, clamped */
+	float *row;             /* of HDR, clamped */
+	unsigned char *profile; /* or null */
 };
 
 /* The plugin's error with the file's name before it. */
@@ -38,6 +40,15 @@ spec_plugin_knows(const char *suffix, const char *path, struct spec_error *error
 	return status == SPEC_OK ? SPEC_OK : report(error, &cause, path);
 }
 
+/* sRGB, with its own transfer function or linear. */
+static int
+is_plain(const struct spec_picture *picture)
+{
+	return strcmp(picture->space->name, "srgb") == 0 &&
+	       (picture->kind.sample == SPEC_PICTURE_FLOAT ||
+		       picture->space->transfer == &spec_transfer_srgb);
+}
+
 /* What the samples are, as OpenImageIO calls it; null: it has no word for it. */
 static const char *
 name_colour(const struct spec_picture *picture)
@@ -50,9 +61,25 @@ name_colour(const struct spec_picture *picture)
 		return NULL;
 	if (!space->transfer || space->transfer == &spec_transfer_linear)
 		return "Linear";
-	return strcmp(space->name, "srgb") == 0 && space->transfer == &spec_transfer_srgb
-		       ? "sRGB"
-		       : NULL;
+	return is_plain(picture) ? "sRGB" : NULL;
+}
+
+/* The usual space needs none: OpenImageIO's word says it. */
+static enum spec_status
+make_profile(const struct spec_picture *picture, struct spec_pictures_request *request,
+	struct spec_error *error)
+{
+	const struct spec_space *space = picture->space;
+	struct state *state = picture->state;
+	enum spec_status status;
+
+	if (!space || is_plain(picture))
+		return SPEC_OK;
+	status = spec_profile_make(space,
+		picture->kind.sample == SPEC_PICTURE_FLOAT ? NULL : space->transfer,
+		&state->profile, &request->profile_bytes, error);
+	request->profile = state->profile;
+	return status;
 }
 
 static int
@@ -84,7 +111,9 @@ open_plugin(struct spec_picture *picture, struct spec_error *error)
 		if (!state->row)
 			return SPEC_ENOMEM;
 	}
-	status = spec_plugin_load(&state->loaded, &cause);
+	status = make_profile(picture, &request, &cause);
+	if (status == SPEC_OK)
+		status = spec_plugin_load(&state->loaded, &cause);
 	if (status == SPEC_OK)
 		status = state->loaded.table->open(&state->picture, &request, &cause);
 	return status == SPEC_OK ? SPEC_OK : report(error, &cause, picture->output->path);
@@ -145,6 +174,7 @@ close_plugin(struct spec_picture *picture)
 		state->loaded.table->close(state->picture);
 	spec_plugin_unload(&state->loaded);
 	free(state->row);
+	free(state->profile);
 	free(state);
 }
 

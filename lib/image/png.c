@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "colour/profile.h"
 #include "image/encoder.h"
 
 /*
@@ -20,6 +21,8 @@ struct state {
 	png_structp png;
 	png_infop info;
 	struct spec_picture *picture;
+	unsigned char *profile; /* or null */
+	size_t profile_bytes;
 	struct spec_error error;
 	jmp_buf escape; /* set by guard alone */
 };
@@ -86,7 +89,21 @@ guard(struct state *state, void (*step)(struct state *state, const struct rows *
 static int
 is_inside(const double xy[2])
 {
-	return xy[0] >= 0 && xy[1] >= 0;
+	return xy[0] >= 0 && xy[1] >= 0 && xy[0] + xy[1] <= 1;
+}
+
+#define LEAST_SHARE .001 /* of a primary in white's luminance that cHRM can tell */
+
+/* libpng refuses primaries outside x, y, 1 - x - y >= 0, and white outside of them. */
+static int
+fits_chromaticities(const struct spec_space *space)
+{
+	double m[9];
+
+	return is_inside(space->red_xy) && is_inside(space->green_xy) &&
+	       is_inside(space->blue_xy) && is_inside(space->white_xy) &&
+	       spec_space_to_xyz(space, m, NULL) == SPEC_OK && m[3] > LEAST_SHARE &&
+	       m[4] > LEAST_SHARE && m[5] > LEAST_SHARE;
 }
 
 /* Times 100000; 0 where the function is not near a power. */
@@ -102,7 +119,16 @@ gamma_of(const struct spec_transfer *transfer)
 	return (png_fixed_point)(PNG_FP_1 * transfer->power + .5);
 }
 
-/* The sRGB chunk says all; other spaces are told by gAMA and cHRM, as far as they can be. */
+static int
+is_srgb(const struct spec_space *space)
+{
+	return strcmp(space->name, "srgb") == 0 && space->transfer == &spec_transfer_srgb;
+}
+
+/*
+ * The sRGB chunk says all; other spaces are told by a profile, and for readers without
+ * profiles by gAMA and cHRM, as far as they can be.
+ */
 static void
 say_space(struct state *state)
 {
@@ -111,21 +137,44 @@ say_space(struct state *state)
 
 	if (!space)
 		return;
-	gamma = gamma_of(space->transfer);
-	if (strcmp(space->name, "srgb") == 0 && space->transfer == &spec_transfer_srgb) {
+	if (is_srgb(space)) {
 		png_set_sRGB_gAMA_and_cHRM(
 			state->png, state->info, PNG_sRGB_INTENT_RELATIVE);
 		return;
 	}
+	gamma = gamma_of(space->transfer);
 	if (gamma > 0)
 		png_set_gAMA_fixed(state->png, state->info, gamma);
-	/* PNG holds no negative chromaticities, which ACES2065-1 has. */
-	if (is_inside(space->red_xy) && is_inside(space->green_xy) &&
-		is_inside(space->blue_xy))
+	/* Not of ACES2065-1 and ACEScg, whose primaries are no colours. */
+	if (fits_chromaticities(space))
 		png_set_cHRM(state->png, state->info, space->white_xy[0],
 			space->white_xy[1], space->red_xy[0], space->red_xy[1],
 			space->green_xy[0], space->green_xy[1], space->blue_xy[0],
 			space->blue_xy[1]);
+	if (state->profile)
+		png_set_iCCP(state->png, state->info, space->title,
+			PNG_COMPRESSION_TYPE_BASE, state->profile,
+			(png_uint_32)state->profile_bytes);
+}
+
+/*
+ * By hand, since libpng 1.6 writes no such chunk before 1.6.45: primaries, transfer, no
+ * matrix, full range (PNG, third edition, 2025, 11.3.2.6). It comes before PLTE and IDAT.
+ */
+static void
+write_code_points(struct state *state)
+{
+	const struct spec_space *space = state->picture->space;
+	const struct spec_transfer *transfer;
+	png_byte code[4] = {0, 0, 0, 1};
+
+	if (!space || is_srgb(space))
+		return;
+	transfer = space->transfer ? space->transfer : &spec_transfer_linear;
+	code[0] = (png_byte)space->cicp;
+	code[1] = (png_byte)transfer->cicp;
+	if (code[0] && code[1])
+		png_write_chunk(state->png, (png_const_bytep) "cICP", code, sizeof code);
 }
 
 static void
@@ -151,6 +200,8 @@ begin(struct state *state, const struct rows *rows)
 		(png_uint_32)picture->height, wide ? 16 : 8, PNG_COLOR_TYPE_RGB,
 		PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
 	say_space(state);
+	png_write_info_before_PLTE(state->png, state->info);
+	write_code_points(state);
 	png_write_info(state->png, state->info);
 	if (wide && __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__)
 		png_set_swap(state->png);
@@ -178,12 +229,16 @@ static enum spec_status
 open_png(struct spec_picture *picture, struct spec_error *error)
 {
 	struct state *state = spec_memory_new(1, sizeof *state, "pictures", error);
+	enum spec_status status = SPEC_OK;
 
 	if (!state)
 		return SPEC_ENOMEM;
 	state->picture = picture;
 	picture->state = state;
-	return guard(state, begin, NULL, error);
+	if (picture->space && !is_srgb(picture->space))
+		status = spec_profile_make(picture->space, picture->space->transfer,
+			&state->profile, &state->profile_bytes, error);
+	return status == SPEC_OK ? guard(state, begin, NULL, error) : status;
 }
 
 static enum spec_status
@@ -207,6 +262,7 @@ close_png(struct spec_picture *picture)
 	if (!state)
 		return;
 	png_destroy_write_struct(&state->png, &state->info);
+	free(state->profile);
 	free(state);
 }
 

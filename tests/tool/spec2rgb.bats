@@ -701,3 +701,75 @@ near() {
   fails_cleanly spec2rgb --model hsv --space p3 a.exr -o x.exr
   no_leftovers . a.exr
 }
+
+# chunk FILE.png NAME: the bytes of a chunk before the pixels, in hexadecimal.
+chunk() {
+  od -An -v -tx1 -w1 "$1" | awk -v name="$(printf %s "$2" | od -An -tx1 | tr -d ' \n')" '
+    function number(at) { return strtonum16(b[at]) * 16777216 + strtonum16(b[at + 1]) * 65536 + strtonum16(b[at + 2]) * 256 + strtonum16(b[at + 3]) }
+    function strtonum16(two) { return 16 * (index("0123456789abcdef", substr(two, 1, 1)) - 1) + index("0123456789abcdef", substr(two, 2, 1)) - 1 }
+    { b[n++] = $1 }
+    END {
+      for (at = 8; at < n; at += 12 + size) {
+        size = number(at)
+        kind = b[at + 4] b[at + 5] b[at + 6] b[at + 7]
+        if (kind == "49444154") exit
+        if (kind != name) continue
+        for (i = 0; i < size; i++) printf "%s", b[at + 8 + i]
+        print ""
+      }
+    }'
+}
+
+@test "a PNG says its space: cICP, gAMA and cHRM beside a profile; sRGB by one chunk" {
+  spectral a.exr
+  # H.273: 12 and 13, 9 and 14, 1 and 1; gamma 1/2.2, 1/2.19921875, 1/2.6; whites of D65 and of DCI.
+  while read -r space code gamma white; do
+    spec2rgb --space "$space" a.exr -o a.png
+    [ "$(chunk a.png cICP)" = "${code#-}" ] || complain "$space: cICP $(chunk a.png cICP)"
+    [ "$(chunk a.png gAMA)" = "${gamma#-}" ] || complain "$space: gAMA $(chunk a.png gAMA)"
+    [ "$(chunk a.png cHRM | head -c 16)" = "${white#-}" ] || complain "$space: cHRM $(chunk a.png cHRM)"
+    [ -n "$(chunk a.png iCCP)" ] || complain "$space has no profile"
+    [ -z "$(chunk a.png sRGB)" ]
+  done <<'END'
+p3 0c0d0001 0000b18f 00007a2600008084
+rec2020 090e0001 - 00007a2600008084
+rec709 01010001 - 00007a2600008084
+adobe - 0000b19f 00007a2600008084
+dci-p3 - 0000963e 00007aa80000891c
+aces - 000186a0 -
+acescg - 000186a0 -
+END
+}
+
+@test "custom primaries and other functions are told in a PNG, too" {
+  spectral a.exr
+  spec2rgb --space '.9,.05 -.1,1.2 .1,-.3 .3,.3' a.exr -o far.png
+  [ -n "$(chunk far.png iCCP)" ]
+  [ -z "$(chunk far.png cHRM)$(chunk far.png cICP)" ]
+  # White outside its primaries.
+  spec2rgb --space '.6,.3 .3,.6 .5,.3 .15,.1' a.exr -o odd.png
+  [ -n "$(chunk odd.png iCCP)" ]
+  spec2rgb --transfer linear a.exr -o linear.png
+  [ "$(chunk linear.png cICP)" = 01080001 ]
+  [ -z "$(chunk linear.png sRGB)" ]
+  spec2rgb a.exr -o plain.png
+  spec2rgb --space srgb --transfer srgb a.exr -o srgb.png
+  cmp plain.png srgb.png
+  [ -n "$(chunk srgb.png sRGB)" ]
+  [ -z "$(chunk srgb.png iCCP)$(chunk srgb.png cICP)" ]
+}
+
+@test "other programs find the profile in PNG, TIFF and JPEG" {
+  command -v oiiotool >/dev/null || skip 'no oiiotool'
+  spectral a.exr
+  for suffix in png tif jpg; do
+    spec2rgb --space p3 a.exr -o p3.$suffix
+    oiiotool --info -v p3.$suffix | grep -q 'ICCProfile:profile_description: "Display P3"' || complain "$suffix"
+    spec2rgb --space rec2020 a.exr -o wide.$suffix
+    oiiotool --info -v wide.$suffix | grep -q 'ICCProfile:profile_description: "ITU-R BT.2020"' || complain "$suffix"
+    spec2rgb a.exr -o srgb.$suffix
+    run ! grep ICCProfile <(oiiotool --info -v srgb.$suffix)
+  done
+  spec2rgb --space acescg --bits 32 a.exr -o linear.tif
+  oiiotool --info -v linear.tif | grep -q 'ICCProfile:profile_description: "ACEScg"'
+}
