@@ -71,6 +71,17 @@ peek_pipe(int fd, void *bytes, size_t size)
 	return got > 0 ? (size_t)got : 0;
 }
 
+static ssize_t
+peek_file(int fd, void *bytes, size_t size, off_t offset)
+{
+	ssize_t got;
+
+	do {
+		got = pread(fd, bytes, size, offset);
+	} while (got < 0 && errno == EINTR);
+	return got;
+}
+
 size_t
 spec_source_peek(const char *path, void *bytes, size_t size)
 {
@@ -87,7 +98,8 @@ spec_source_peek(const char *path, void *bytes, size_t size)
 	fd = standard ? STDIN_FILENO : open(path, O_RDONLY | O_CLOEXEC);
 	if (fd >= 0 && fstat(fd, &status) == 0) {
 		if (S_ISREG(status.st_mode))
-			got = pread(fd, bytes, size, standard ? lseek(fd, 0, SEEK_CUR) : 0);
+			got = peek_file(
+				fd, bytes, size, standard ? lseek(fd, 0, SEEK_CUR) : 0);
 		else if (S_ISFIFO(status.st_mode))
 			got = (ssize_t)peek_pipe(fd, bytes, size);
 	}
