@@ -24,7 +24,7 @@ END {
   printf "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%d\" height=\"%d\" font-family=\"sans-serif\" font-size=\"12\">\n", width, height
   printf "<rect width=\"%d\" height=\"%d\" fill=\"white\"/>\n", width, height
   w = width - left - right; h = height - top - bottom
-  step = high - low > 200 ? 50 : high - low > 40 ? 10 : 1
+  step = high - low > 900 ? 200 : high - low > 200 ? 50 : high - low > 40 ? 10 : 1
   for (nm = int((low + step - 0.001) / step) * step; nm <= high; nm += step) {
     at = left + w * (nm - low) / (high - low)
     printf "<line x1=\"%.1f\" y1=\"%d\" x2=\"%.1f\" y2=\"%d\" stroke=\"#ddd\"/>\n", at, top, at, top + h
