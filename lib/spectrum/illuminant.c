@@ -74,7 +74,7 @@ spec_daylight_curve(const struct spec_curve *components, double temperature_k,
 	const size_t count = components->count;
 	const double *s = components->value;
 	enum spec_status status;
-	double xy[2], m[2];
+	double xy[2] = {0}, m[2];
 
 	*curve = (struct spec_curve){0};
 	if (components->columns < 3)
