@@ -28,7 +28,7 @@ endif
 # Debian packages that the build, the tests and the demo need beside gcc, make and git, and
 # those that only lint, bench and fuzz need.
 DEPS = g++ pkg-config libopenexr-dev libdeflate-dev libpng-dev liblcms2-dev libopenimageio-dev \
-	libembree-dev libcmocka-dev bats openexr mandoc jq
+	libembree-dev libcairo2-dev libcmocka-dev bats openexr mandoc jq
 LINTDEPS = clang-format clang-tidy cppcheck shellcheck mandoc
 BENCHDEPS = openimageio-tools
 FUZZDEPS = clang libclang-rt-14-dev
@@ -40,10 +40,12 @@ HELPERS = $(patsubst tests/helper/%.c,%,$(wildcard tests/helper/*.c))
 PAGES = $(wildcard man/*.[157])
 SPECTRA = $(shell find spectra -name '*.spd')
 
-LIBSOURCES = $(wildcard lib/*/*.c)
+PLOTSOURCES = $(patsubst %,lib/image/plot%.c,surface spectra diagram)
+LIBSOURCES = $(filter-out $(PLOTSOURCES),$(wildcard lib/*/*.c))
 LIBOBJECTS = $(LIBSOURCES:%.c=$(BUILD)/obj/%.o)
 LIBRARY = $(BUILD)/libspectools.a
 PLUGIN = $(BUILD)/lib/spectools/pictures.so
+PLOTS = $(BUILD)/lib/spectools/plots.so
 DATA = $(BUILD)/share/spectools/spectra
 TABLE = $(BUILD)/share/spectools/upsampling/srgb.sigmoids
 PROGRAMS = $(TOOLS:%=$(BUILD)/bin/%)
@@ -57,6 +59,8 @@ FIGURES =
 EXRFLAGS = $(shell pkg-config --cflags OpenEXR)
 EXRLIBS = -lOpenEXRCore-3_1
 OIIOFLAGS = $(shell pkg-config --cflags OpenImageIO)
+CAIROFLAGS = $(shell pkg-config --cflags cairo)
+CAIROLIBS = $(shell pkg-config --libs cairo)
 OIIOLIBS = $(shell pkg-config --libs OpenImageIO)
 CPPFLAGS = -Ilib -D_GNU_SOURCE -DSPEC_VERSION='"$(VERSION)"'
 LDLIBS = $(EXRLIBS) -ldeflate -lpng16 -Wl,--as-needed -llcms2 -Wl,--no-as-needed -ldl -pthread -lm
@@ -80,7 +84,7 @@ ifneq ($(filter clean,$(MAKECMDGOALS)),)
 .NOTPARALLEL:
 endif
 
-all: $(PROGRAMS) $(PLUGIN) $(DATA) $(TABLE)
+all: $(PROGRAMS) $(PLUGIN) $(PLOTS) $(DATA) $(TABLE)
 
 help:
 	@echo 'make deps       install what the build and the tests need (apt-get)'
@@ -138,7 +142,14 @@ $(PLUGIN): $(addprefix $(BUILD)/obj/lib/image/,pictures.o pictureinput.o)
 	$(SAY) link $@
 	$(QUIET)$(CXX) $(ALLLDFLAGS) -shared -o $@ $^ $(OIIOLIBS)
 
-# The tools find their data and plugin beside themselves, here as when installed.
+# cairo costs 4 ms at every start.
+$(PLOTS): EXRFLAGS = $(CAIROFLAGS)
+$(PLOTS): $(PLOTSOURCES:%.c=$(BUILD)/obj/%.o)
+	@mkdir -p $(@D)
+	$(SAY) link $@
+	$(QUIET)$(CC) $(ALLLDFLAGS) -shared -o $@ $^ $(CAIROLIBS) -lm
+
+# The tools find their data and plugins beside themselves, here as when installed.
 $(DATA):
 	@mkdir -p $(@D)
 	ln -sfn $(CURDIR)/spectra $@
@@ -223,7 +234,7 @@ lint-cppcheck: | $(READY)
 lint-tidy: | $(READY)
 	@echo clang-tidy $(filter %.c,$(CODE))
 	@! printf '%s\n' $(filter %.c,$(CODE)) | xargs -P 2 -I FILE clang-tidy --quiet FILE -- \
-		-std=c11 $(CPPFLAGS) $(EXRFLAGS) '-D__builtin_cpu_supports(name)=1' 2>&1 | \
+		-std=c11 $(CPPFLAGS) $(EXRFLAGS) $(CAIROFLAGS) '-D__builtin_cpu_supports(name)=1' 2>&1 | \
 		grep -vE '^[0-9]+ warnings?( and [0-9]+ errors?)? generated\.$$'
 
 # bats sets $stderr, and a test of a pipe begins with cat.
@@ -235,7 +246,7 @@ lint-man: | $(READY)
 
 # Installing. Below build/ everything but the pages already lies as it will be installed.
 
-FILES = $(TOOLS:%=bin/%) lib/spectools/pictures.so $(SPECTRA:%=share/spectools/%) \
+FILES = $(TOOLS:%=bin/%) lib/spectools/pictures.so lib/spectools/plots.so $(SPECTRA:%=share/spectools/%) \
 	$(TABLE:$(BUILD)/%=%)
 MANUAL = $(foreach page,$(PAGES),share/man/man$(subst .,,$(suffix $(page)))/$(notdir $(page)))
 TO = $(DESTDIR)$(PREFIX)

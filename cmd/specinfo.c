@@ -15,6 +15,7 @@
 #include "image/describe.h"
 #include "image/kind.h"
 #include "image/lint.h"
+#include "image/plot.h"
 #include "image/probe.h"
 #include "image/regions.h"
 #include "image/value.h"
@@ -41,6 +42,9 @@ static const struct cli_option options[] = {
 	{0, "illuminant", "SPD",
 		"the light on reflectance, and white (default: D65; equal\n"
 		"energy for dominant wavelengths of light)"},
+	{0, "plot", "FILE",
+		"draw the curves, or what --probe and --patches measure, and\n"
+		"their places in the chromaticity diagram: .png, .svg, .pdf"},
 	{'c', "check", NULL,
 		"list what is wrong with images, a line for each finding;\n"
 		"reads all pixels"},
@@ -63,7 +67,8 @@ struct job {
 	int json, statistics, bands, check;
 	struct spec_probe *probe;
 	size_t probes, probe_room;
-	const char *patches, *observer, *illuminant;
+	const char *patches, *observer, *illuminant, *plotted;
+	struct spec_plot plot;
 	struct spec_regions regions;
 	struct spec_viewing viewing; /* once it is needed */
 	int seeing;
@@ -107,6 +112,8 @@ take_option(struct job *job, const char *name, const char *value, struct spec_er
 		return take_probe(job, value, error);
 	else if (strcmp(name, "patches") == 0)
 		job->patches = value;
+	else if (strcmp(name, "plot") == 0)
+		job->plotted = value;
 	else if (strcmp(name, "observer") == 0)
 		job->observer = value;
 	else if (strcmp(name, "illuminant") == 0)
@@ -165,7 +172,11 @@ parse(struct cli *cli, struct job *job, struct spec_error *error)
 	if (job->patches)
 		cli_check(
 			cli, spec_regions_parse(job->patches, &job->regions, error), error);
-	if (job->observer || job->illuminant)
+	if (job->plotted && (job->check || job->statistics))
+		cli_usage(cli, "--plot has nothing to do with --check and statistics");
+	if (job->plotted)
+		cli_check(cli, spec_plot_open(job->plotted, &job->plot, error), error);
+	if (job->observer || job->illuminant || job->plotted)
 		cli_check(cli, see(job, error), error);
 	if (job->inputs == 0)
 		cli_check(cli, take_input(job, "-", error), error);
@@ -185,9 +196,32 @@ is_seen(const struct spec_curve *curve)
 	return spec_seen_of(curve->quantity, curve->unit) != SPEC_SEEN_NOTHING;
 }
 
+/* Called as the curve is, and where there are several columns as they are. */
+static enum spec_status
+plot_column(struct job *job, const char *name, const struct spec_curve *curve,
+	size_t column, const struct spec_appearance *appearance, struct spec_error *error)
+{
+	struct spec_text text = {0};
+	enum spec_status status = spec_text_open(&text, error);
+
+	if (status != SPEC_OK)
+		return status;
+	fputs(name, text.stream);
+	if (curve->columns > 1)
+		fprintf(text.stream, " %s", curve->column[column]);
+	fputc('\0', text.stream);
+	status = spec_text_close(&text, error);
+	if (status == SPEC_OK)
+		status = spec_plot_add_curve(
+			&job->plot, text.bytes, curve, column, appearance, error);
+	spec_text_free(&text);
+	return status;
+}
+
 /* The columns' colours: a curve's own where it has one column. */
 static enum spec_status
-tell_colours(struct job *job, const struct spec_curve *curve, struct spec_error *error)
+tell_colours(struct job *job, const char *name, const struct spec_curve *curve,
+	struct spec_error *error)
 {
 	int seen = is_seen(curve), several = curve->columns > 1;
 	enum spec_status status = SPEC_OK;
@@ -201,6 +235,8 @@ tell_colours(struct job *job, const struct spec_curve *curve, struct spec_error 
 		if (seen)
 			status = spec_appearance_of_curve(
 				&job->viewing, curve, i, &appearance, error);
+		if (status == SPEC_OK && job->plotted)
+			status = plot_column(job, name, curve, i, &appearance, error);
 		if (!job->json) {
 			if (seen && several)
 				fprintf(job->text.stream, "  %-13s %s\n", "colour of",
@@ -239,7 +275,7 @@ tell_curve(struct job *job, const char *path, struct spec_error *error)
 		spec_summary_json_open(&job->writer, name, &curve);
 	else
 		spec_summary_print(job->text.stream, name, &curve);
-	status = tell_colours(job, &curve, error);
+	status = tell_colours(job, name, &curve, error);
 	if (job->json)
 		spec_json_close(&job->writer);
 	spec_curve_free(&curve);
@@ -366,6 +402,8 @@ probe_image(struct job *job, const char *path, struct spec_error *error)
 		status = see(job, error);
 	if (status == SPEC_OK)
 		status = spec_probe_see(probe, probes, reader, &job->viewing, error);
+	if (status == SPEC_OK && job->plotted)
+		status = spec_plot_add_probes(&job->plot, probe, probes, reader, error);
 	if (status == SPEC_OK) {
 		separate(job);
 		status = job->json ? spec_probe_json(
@@ -392,6 +430,11 @@ tell(struct job *job, const char *path, struct spec_error *error)
 		return check_image(job, path, error);
 	if (job->probes > 0 || job->patches)
 		return probe_image(job, path, error);
+	if (!curve && job->plotted)
+		return spec_error_set(error, SPEC_EUSAGE,
+			"'%s' is an image, of which --plot draws what --probe or "
+			"--patches measure",
+			path);
 	return curve ? tell_curve(job, path, error) : tell_image(job, path, error);
 }
 
@@ -440,6 +483,10 @@ main(int argc, char **argv)
 	if (job.json && job.inputs > 1)
 		spec_json_close(&job.writer);
 	cli_check(&cli, spec_text_close(&job.text, &error), &error);
+	if (job.plotted && code != EXIT_TROUBLE)
+		cli_check(&cli,
+			spec_plot_save(&job.plot, job.plotted, &job.viewing, &error),
+			&error);
 	/* A file that is named appears only when it is complete. */
 	if (job.told > 0 && (code != EXIT_TROUBLE || strcmp(job.settings.output, "-") == 0))
 		cli_check(&cli,
@@ -451,6 +498,7 @@ main(int argc, char **argv)
 	free(job.probe);
 	spec_regions_free(&job.regions);
 	spec_viewing_free(&job.viewing);
+	spec_plot_free(&job.plot);
 	free((void *)job.input);
 	return code;
 }

@@ -530,6 +530,71 @@ about() {
     '$with.pixels[0].XYZ[1] > $without.pixels[0].XYZ[1] + 1' | grep -qx true
 }
 
+# Plots
+
+# In the diagram, x = 0.31273 is 810.57 from the left, y = 0.32902 345.54 from the top; a point's
+# circle, of radius 4, begins at its right. The panel of spectra spans 70..550 and 30..460. cairo
+# rounds to 1/256.
+@test "--plot: the spectra and their points are where they belong" {
+  specinfo --plot a.svg D65 >told
+  diff told <(specinfo D65)
+  grep -qE 'd="M 814\.5[67][0-9]* 345\.5[34][0-9]* C' a.svg
+  # At 300 nm, the left edge, D65 is 0.0341 of 117.812 and 4 % more: 0.12 above the lower edge.
+  grep -qE 'd="M 70 459\.8[78][0-9]* L ' a.svg
+  grep -qE ' L 550 [0-9.]+' a.svg
+  specinfo --plot b.svg A >told
+  ! grep -qE 'M 814\.5[67][0-9]* 345\.5[34]' b.svg
+  spectral a.exr --grid 400:700:50
+  specinfo --json -p 3,2 --plot c.svg a.exr >told.json
+  x=$(jq '614 + 470 * (.pixels[0].xy[0] + 0.05) / 0.85 | . * 10 | floor / 10' told.json)
+  grep -qE "d=\"M ${x/./\\.}[0-9]* [0-9.]+ C" c.svg || complain "no circle at $x"
+  echo 'some 0 0 4 4' >rectangles
+  specinfo --patches rectangles --plot d.svg a.exr >told
+  ! cmp -s c.svg d.svg
+}
+
+@test "--plot: the formats, the same bytes each time, several curves and columns" {
+  specinfo --plot a.png D65 Au 15-red | diff - <(specinfo D65 Au 15-red)
+  [ "$(od -An -tx1 -N4 a.png)" = ' 89 50 4e 47' ]
+  [ "$(od -An -tu1 -j16 -N8 a.png)" = '   0   0   4  76   0   0   2 108' ]
+  specinfo --plot a.pdf D65 Au 15-red >told
+  [ "$(head -c 5 a.pdf)" = '%PDF-' ]
+  specinfo --plot a.SVG D65 Au 15-red >told
+  grep -q '<svg ' a.SVG
+  for file in a.png a.pdf a.SVG; do
+    specinfo --plot "b${file#a}" D65 Au 15-red >told
+    cmp "$file" "b${file#a}"
+  done
+  # Other quantities, each over its greatest value: D65 begins at 0.0341 / 117.812 of 1.04.
+  grep -qE 'd="M [0-9.]+ 459\.8[78]' a.SVG
+  # Without sRGB's triangle there is one closed path of three corners less.
+  specinfo --observer 1964 --plot c.svg D65 >told
+  specinfo --plot d.svg D65 >told
+  triangle='d="M [0-9.]+ [0-9.]+ L [0-9.]+ [0-9.]+ L [0-9.]+ [0-9.]+ Z'
+  grep -qE "$triangle" d.svg
+  ! grep -qE "$triangle" c.svg
+}
+
+@test "--plot: of what is not finite, or no colour; and what is wrong" {
+  spectral n.exr --grid 400:700:50 --pattern nan:1,0,1
+  specinfo -p 1,0 --plot a.png n.exr >told
+  printf '%s\n' '500 1' >one.spd
+  specinfo --plot b.png one.spd >told
+  printf '%s\n' '500 0' '600 0' >none.spd
+  specinfo --plot c.svg none.spd >told
+  ! grep -qi nan c.svg
+  fails_cleanly specinfo --plot d.gif D65
+  fails_cleanly specinfo --plot png D65
+  fails_cleanly specinfo --plot d.png n.exr
+  fails_cleanly specinfo --plot d.png --check n.exr
+  fails_cleanly specinfo --plot d.png -s n.exr
+  fails_cleanly specinfo --plot d.png nothing-of-that-name
+  fails_cleanly specinfo --plot nowhere/d.png D65
+  spectral y.exr --channel Y
+  fails_cleanly specinfo -p 0,0 --plot d.png y.exr
+  [ ! -e d.png ]
+}
+
 # Other programs' files, as exrheader sees them
 
 @test "every sample of other programs is told of" {
