@@ -206,11 +206,9 @@ spec_appearance_of_curve(const struct spec_viewing *viewing, const struct spec_c
 	if (status == SPEC_OK)
 		status = sum_curve(&viewing->standard, illuminant, curve, value, standard,
 			&ignored, error);
-	if (status == SPEC_ERANGE)
-		return SPEC_OK;
-	if (status == SPEC_OK)
-		status = spec_appearance_find(
-			viewing, seen, xyz, standard, appearance, error);
+	if (status != SPEC_OK)
+		return status == SPEC_ERANGE ? SPEC_OK : status;
+	status = spec_appearance_find(viewing, seen, xyz, standard, appearance, error);
 	appearance->outside = outside;
 	return status;
 }

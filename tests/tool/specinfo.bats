@@ -543,14 +543,14 @@ about() {
   grep -qE 'd="M 70 459\.8[78][0-9]* L ' a.svg
   grep -qE ' L 550 [0-9.]+' a.svg
   specinfo --plot b.svg A >told
-  ! grep -qE 'M 814\.5[67][0-9]* 345\.5[34]' b.svg
+  run ! grep -qE 'M 814\.5[67][0-9]* 345\.5[34]' b.svg
   spectral a.exr --grid 400:700:50
   specinfo --json -p 3,2 --plot c.svg a.exr >told.json
   x=$(jq '614 + 470 * (.pixels[0].xy[0] + 0.05) / 0.85 | . * 10 | floor / 10' told.json)
   grep -qE "d=\"M ${x/./\\.}[0-9]* [0-9.]+ C" c.svg || complain "no circle at $x"
   echo 'some 0 0 4 4' >rectangles
   specinfo --patches rectangles --plot d.svg a.exr >told
-  ! cmp -s c.svg d.svg
+  run ! cmp -s c.svg d.svg
 }
 
 @test "--plot: the formats, the same bytes each time, several curves and columns" {
@@ -572,7 +572,7 @@ about() {
   specinfo --plot d.svg D65 >told
   triangle='d="M [0-9.]+ [0-9.]+ L [0-9.]+ [0-9.]+ L [0-9.]+ [0-9.]+ Z'
   grep -qE "$triangle" d.svg
-  ! grep -qE "$triangle" c.svg
+  run ! grep -qE "$triangle" c.svg
 }
 
 @test "--plot: of what is not finite, or no colour; and what is wrong" {
@@ -582,7 +582,7 @@ about() {
   specinfo --plot b.png one.spd >told
   printf '%s\n' '500 0' '600 0' >none.spd
   specinfo --plot c.svg none.spd >told
-  ! grep -qi nan c.svg
+  run ! grep -qi nan c.svg
   fails_cleanly specinfo --plot d.gif D65
   fails_cleanly specinfo --plot png D65
   fails_cleanly specinfo --plot d.png n.exr
