@@ -28,7 +28,7 @@ endif
 # Debian packages that the build, the tests and the demo need beside gcc, make and git, and
 # those that only lint, bench and fuzz need.
 DEPS = g++ pkg-config libopenexr-dev libdeflate-dev libpng-dev liblcms2-dev libopenimageio-dev \
-	libembree-dev libcairo2-dev libcmocka-dev bats openexr mandoc jq
+	libembree-dev libcairo2-dev libfontconfig-dev libcmocka-dev bats openexr mandoc jq
 LINTDEPS = clang-format clang-tidy cppcheck shellcheck mandoc
 BENCHDEPS = openimageio-tools
 FUZZDEPS = clang libclang-rt-14-dev
@@ -59,8 +59,8 @@ FIGURES =
 EXRFLAGS = $(shell pkg-config --cflags OpenEXR)
 EXRLIBS = -lOpenEXRCore-3_1
 OIIOFLAGS = $(shell pkg-config --cflags OpenImageIO)
-CAIROFLAGS = $(shell pkg-config --cflags cairo)
-CAIROLIBS = $(shell pkg-config --libs cairo)
+CAIROFLAGS = $(shell pkg-config --cflags cairo fontconfig)
+CAIROLIBS = $(shell pkg-config --libs cairo fontconfig)
 OIIOLIBS = $(shell pkg-config --libs OpenImageIO)
 CPPFLAGS = -Ilib -D_GNU_SOURCE -DSPEC_VERSION='"$(VERSION)"'
 LDLIBS = $(EXRLIBS) -ldeflate -lpng16 -Wl,--as-needed -llcms2 -Wl,--no-as-needed -ldl -pthread -lm

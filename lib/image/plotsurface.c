@@ -4,6 +4,7 @@
 
 #include <cairo-pdf.h>
 #include <cairo-svg.h>
+#include <fontconfig/fontconfig.h>
 
 #include "image/plotdrawing.h"
 
@@ -150,6 +151,9 @@ draw(const struct spec_plotting_request *request,
 	if (status == CAIRO_STATUS_SUCCESS)
 		status = cairo_surface_status(surface);
 	cairo_surface_destroy(surface);
+	/* One plot is all there is in a process, and what is cached for others is no leak. */
+	cairo_debug_reset_static_data();
+	FcFini();
 	return status == CAIRO_STATUS_SUCCESS ? NULL : cairo_status_to_string(status);
 }
 
