@@ -23,6 +23,9 @@ static const struct cli_option options[] = {
 	{'t', "tolerance", "NAME=VALUE",
 		"differ only beyond this; may be given several times"},
 	{0, "exact", NULL, "differ where any bit of a sample does"},
+	{0, "same-within", "Nsigma",
+		"test whether two renders differ by more than their noise;\n"
+		"a false alarm is as rare as N sigma of a normal noise"},
 	{0, "bands", NULL, "print rmse, mae and max of each band"},
 	{0, "json", NULL, "print as JSON"},
 	{0, "resample", NULL, "compare different grids over their overlap"},
@@ -136,6 +139,23 @@ take_image(struct job *job, const char *path, struct spec_error *error)
 	return SPEC_OK;
 }
 
+/* "3sigma", or "3". */
+static enum spec_status
+take_sigma(struct job *job, const char *text, struct spec_error *error)
+{
+	size_t length = strcspn(text, "s");
+	char number[32] = "";
+	enum spec_status status;
+
+	if (text[length] && strcmp(text + length, "sigma") != 0)
+		return spec_error_set(error, SPEC_EUSAGE, "'%s' is not Nsigma", text);
+	snprintf(number, sizeof number, "%.*s", (int)length, text);
+	status = spec_number_parse(
+		number, 0.1, 10, "the number of sigmas", &job->setup.sigma, error);
+	job->report.sigma = job->setup.sigma;
+	return status;
+}
+
 /* Options without a value. */
 static int
 take_flag(struct job *job, const char *name)
@@ -171,6 +191,8 @@ take(void *state, const char *name, const char *value, struct spec_error *error)
 	if (strcmp(name, "peak") == 0)
 		return spec_number_parse(
 			value, 1e-300, 1e300, "the peak", &job->report.peak, error);
+	if (strcmp(name, "same-within") == 0)
+		return take_sigma(job, value, error);
 	if (strcmp(name, "crop") == 0) {
 		job->setup.crop = &job->crop;
 		return spec_settings_crop(value, &job->crop, error);

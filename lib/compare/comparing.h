@@ -26,7 +26,8 @@ struct spec_comparing {
 	const struct spec_images_setup *setup;
 	const struct spec_image *a, *b;
 	struct spec_comparing_pairs bands, others;
-	struct spec_comparing_sums sums[2]; /* of A and of B */
+	struct spec_comparing_pairs variances; /* of all bands, or none */
+	struct spec_comparing_sums sums[2];    /* of A and of B */
 	/* The wavelengths of the bands that are measured, and the edges, or null. */
 	size_t grid_bands;
 	const double *grid_nm, *grid_edges_nm;
@@ -50,6 +51,13 @@ enum spec_status spec_comparing_structure(
  */
 enum spec_status spec_comparing_resample(
 	struct spec_comparing *comparison, int *done, struct spec_error *error);
+
+/*
+ * Finds the channels with the variances of the means that the bands are: "variance." and the
+ * band's name, of every band on both sides; else there are none. Error: SPEC_ENOMEM.
+ */
+enum spec_status spec_comparing_variances(
+	struct spec_comparing *comparison, struct spec_error *error);
 
 /* Plans the colours of the bands, or of the channels R, G and B. Errors: those of observers. */
 enum spec_status spec_comparing_colour(

@@ -9,7 +9,8 @@
 #include "compare/comparing.h"
 #include "image/stream.h"
 
-/* What a line's measures are, as the stream carries them; the bands' sums follow it. */
+/* What a line's measures are, as the stream carries them; what is wanted of the bands and of
+ * the tiles follows it. */
 struct row {
 	struct spec_measure spectral, others;
 	struct spec_whole whole;
@@ -310,6 +311,33 @@ fill_maps(const struct run *run, const struct room *room, int line, size_t count
 	}
 }
 
+/* A line's sums for the test of significance, behind those of the bands. */
+static size_t
+band_bytes(const struct run *run)
+{
+	size_t bands = run->comparing.setup->want_bands ? run->comparing.bands.count : 0;
+
+	return bands * sizeof(struct spec_detail_band);
+}
+
+static void
+fill_test(const struct run *run, const struct spec_stream_worker *worker, int line,
+	size_t count, const struct room *room, struct spec_significance_sums *sums)
+{
+	const struct spec_comparing *comparing = &run->comparing;
+	size_t bands = comparing->bands.count;
+	int known = comparing->variances.count > 0;
+	struct room rest = *room;
+
+	rest.plane += 2 * bands;
+	rest.samples += makes_rows(run) ? 2 * bands * run->width : 0;
+	if (known)
+		gather(run, worker, &comparing->variances, 0, line, count, &rest);
+	spec_significance_row(bands, run->width, room->plane, room->plane + bands,
+		known ? rest.plane : NULL, known ? rest.plane + bands : NULL, room->pixel,
+		count, sums);
+}
+
 static enum spec_status
 kernel(void *state, struct spec_stream_worker *worker, int line, struct spec_error *error)
 {
@@ -337,6 +365,10 @@ kernel(void *state, struct spec_stream_worker *worker, int line, struct spec_err
 		if (setup->maps || setup->want_bands)
 			fill_maps(run, &room, line, count, setup->want_bands ? band : NULL);
 	}
+	if (setup->sigma > 0)
+		fill_test(run, worker, line, count, &room,
+			(struct spec_significance_sums *)(void *)((char *)band +
+								  band_bytes(run)));
 	measure_others(run, worker, line, y, count, &room, row);
 	place_pixels(&row->spectral, room.pixel, count, x0);
 	place_pixels(&row->others, room.pixel, count, x0);
@@ -350,9 +382,12 @@ kernel(void *state, struct spec_stream_worker *worker, int line, struct spec_err
 static size_t
 payload_bytes(const struct run *run)
 {
-	size_t bands = run->comparing.setup->want_bands ? run->comparing.bands.count : 0;
+	size_t sums = 0;
 
-	return sizeof(struct row) + bands * sizeof(struct spec_detail_band);
+	if (run->comparing.setup->sigma > 0)
+		sums = spec_significance_row_sums(run->comparing.bands.count, run->width);
+	return sizeof(struct row) + band_bytes(run) +
+	       sums * sizeof(struct spec_significance_sums);
 }
 
 static enum spec_status
@@ -362,7 +397,6 @@ deliver(void *state, const unsigned char *payload, int line, int count,
 	struct run *run = state;
 	struct spec_images *result = run->comparing.result;
 
-	(void)line;
 	(void)error;
 	for (int i = 0; i < count; i++, payload += payload_bytes(run)) {
 		const struct row *row = (const struct row *)(const void *)payload;
@@ -375,6 +409,11 @@ deliver(void *state, const unsigned char *payload, int line, int count,
 		add_exact(&result->exact, &row->exact);
 		for (size_t k = 0; result->band && k < run->comparing.bands.count; k++)
 			spec_detail_band_add(&result->band[k], &band[k]);
+		if (run->comparing.setup->sigma > 0)
+			spec_significance_add(&result->test,
+				(const struct spec_significance_sums *)(const void
+						*)((const char *)band + band_bytes(run)),
+				line + i);
 	}
 	return SPEC_OK;
 }
@@ -460,13 +499,15 @@ plan_results(
 		if (!result->map[kind])
 			return SPEC_ENOMEM;
 	}
-	if (!comparing->setup->want_bands)
-		return SPEC_OK;
-	result->band = spec_memory_new(bands, sizeof *result->band, "bands", error);
+	if (comparing->setup->want_bands) {
+		result->band = spec_memory_new(bands, sizeof *result->band, "bands", error);
+		if (!result->band)
+			return SPEC_ENOMEM;
+	}
 	result->band_channel =
 		spec_memory_new(bands, sizeof *result->band_channel, "bands", error);
 	result->band_nm = spec_memory_new(bands, sizeof *result->band_nm, "bands", error);
-	if (!result->band || !result->band_channel || !result->band_nm)
+	if (!result->band_channel || !result->band_nm)
 		return SPEC_ENOMEM;
 	for (size_t i = 0; i < bands; i++) {
 		result->band_channel[i] = comparing->bands.a[i];
@@ -475,6 +516,22 @@ plan_results(
 	}
 	result->width_nm = comparing->width_nm;
 	comparing->width_nm = NULL;
+	return SPEC_OK;
+}
+
+static enum spec_status
+finish_test(struct spec_comparing *comparing, struct spec_error *error)
+{
+	struct spec_images *result = comparing->result;
+	double sigma = comparing->setup->sigma, least;
+
+	spec_significance_finish(&result->test);
+	result->known_variances = comparing->variances.count > 0;
+	least = spec_significance_least(&result->test, sigma);
+	if (!result->known_variances && (double)result->spectral.pixels < least)
+		return spec_error_set(error, SPEC_ERANGE,
+			"%llu pixels are too few for a test at %g sigma, which takes %.0f",
+			(unsigned long long)result->spectral.pixels, sigma, ceil(least));
 	return SPEC_OK;
 }
 
@@ -496,9 +553,12 @@ measure(struct run *run, struct spec_reader *a, struct spec_reader *b,
 	};
 	enum spec_status status;
 
-	run->planes = 2 * (comparing->bands.count + comparing->others.count);
+	run->planes = 2 * (comparing->bands.count + comparing->others.count +
+				  comparing->variances.count);
 	stream.scratch_bytes = room_bytes(run);
 	status = spec_stream_run(&stream, settings, error);
+	if (status == SPEC_OK && comparing->setup->sigma > 0)
+		status = finish_test(comparing, error);
 	comparing->result->bands = comparing->bands.count;
 	name_channels(&comparing->result->spectral, &comparing->bands);
 	name_channels(&comparing->result->others, &comparing->others);
@@ -529,6 +589,11 @@ plan(struct run *run, const struct spec_settings *settings, const char *name,
 		status = plan_mask(run, error);
 	if (status == SPEC_OK && setup->want_bands)
 		status = spec_comparing_widths(comparing, error);
+	if (status == SPEC_OK && setup->sigma > 0)
+		status = spec_comparing_variances(comparing, error);
+	if (status == SPEC_OK && setup->sigma > 0)
+		status = spec_significance_open(&comparing->result->test,
+			comparing->bands.count, run->width, error);
 	if (status == SPEC_OK)
 		status = plan_results(run, settings, error);
 	return status;

@@ -6,6 +6,7 @@
 #include "compare/detail.h"
 #include "compare/matte.h"
 #include "compare/measure.h"
+#include "compare/significance.h"
 #include "image/reader.h"
 #include "image/settings.h"
 #include "spectrum/curve.h"
@@ -22,6 +23,7 @@ struct spec_images_setup {
 	int want_bands;          /* sums of each band */
 	int resample;            /* other bands are no difference: the overlap counts */
 	int exact;               /* whether all bits are the same */
+	double sigma;            /* of a test of significance; 0: none */
 	const struct spec_window
 		*crop; /* what counts, 0,0 is the data window's corner; or null */
 	const struct spec_matte *mask;   /* settled; or null */
@@ -58,12 +60,14 @@ struct spec_images {
 	struct spec_measure others; /* of all other channels */
 	struct spec_whole whole;
 	struct spec_exact exact;
+	struct spec_significance test; /* its places count from the region's corner */
+	int known_variances;           /* of that test: from channels variance.NAME */
 
 	struct spec_window region;     /* that was measured */
 	struct spec_detail_band *band; /* [bands] where wanted, or null */
-	size_t *band_channel;          /* [bands], with these: of the image grid tells */
+	size_t *band_channel;          /* [bands], of the image that grid tells */
 	double *band_nm;               /* [bands]; 0 where the channel is no band */
-	double *width_nm;              /* [bands] */
+	double *width_nm;              /* [bands], with the sums */
 	/* Where wanted, or null: width * height of region; NaN: outside the mask. */
 	float *map[SPEC_DETAIL_PIXELS];
 };

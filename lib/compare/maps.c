@@ -77,6 +77,7 @@ spec_images_free(struct spec_images *result)
 	free(result->band_channel);
 	free(result->band_nm);
 	free(result->width_nm);
+	spec_significance_free(&result->test);
 	for (int kind = 0; kind < SPEC_DETAIL_PIXELS; kind++)
 		free(result->map[kind]);
 	*result = (struct spec_images){0};

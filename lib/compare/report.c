@@ -3,12 +3,19 @@
 #include <math.h>
 #include <string.h>
 
+int
+spec_report_is_alarm(const struct spec_report *report)
+{
+	return spec_significance_p(&report->result->test) <=
+	       spec_significance_level(report->sigma);
+}
+
 enum spec_status
 spec_report_judge(struct spec_report *report, struct spec_error *error)
 {
 	const struct spec_images *result = report->result;
 	enum spec_status status = SPEC_OK;
-	int judged = report->exact;
+	int judged = report->exact || report->sigma > 0;
 
 	report->different = result->structure[0] != '\0';
 	if (!result->comparable)
@@ -16,7 +23,8 @@ spec_report_judge(struct spec_report *report, struct spec_error *error)
 	/* What is not finite on one side, and another id, are beyond any tolerance. */
 	report->different |= result->spectral.nonfinite > 0 ||
 			     result->others.nonfinite > 0 || result->whole.differing > 0 ||
-			     (report->exact && result->exact.differing > 0);
+			     (report->exact && result->exact.differing > 0) ||
+			     (report->sigma > 0 && spec_report_is_alarm(report));
 	for (size_t i = 0; i < report->metrics && status == SPEC_OK; i++) {
 		struct spec_report_metric *it = &report->metric[i];
 
@@ -142,6 +150,41 @@ print_exact(FILE *stream, const struct spec_report *report)
 	fprintf(stream, ": %.9g (0x%08x) and %.9g (0x%08x)\n", a, exact->a, b, exact->b);
 }
 
+/* The statistic that says most. */
+static void
+print_statistic(FILE *stream, const struct spec_report *report)
+{
+	const struct spec_images *result = report->result;
+	const struct spec_significance *test = &result->test;
+
+	fputs("; most ", stream);
+	print_name(
+		stream, report->image[result->grid], result->band_channel[test->in_band]);
+	if (test->kind == SPEC_SIGNIFICANCE_TILES) {
+		fprintf(stream, ", chi-square of its tiles %.3g of 1 each\n", test->value);
+		return;
+	}
+	if (test->kind == SPEC_SIGNIFICANCE_ONE_TILE)
+		fprintf(stream, " at %zu,%d to %zu,%d", test->x + (size_t)result->region.x0,
+			test->y + result->region.y0,
+			test->x + (size_t)result->region.x0 + SPEC_SIGNIFICANCE_TILE,
+			test->y + result->region.y0 + SPEC_SIGNIFICANCE_TILE);
+	fprintf(stream, ", z %.3g, mean difference %.3g\n", test->value, test->mean);
+}
+
+static void
+print_test(FILE *stream, const struct spec_report *report)
+{
+	fprintf(stream, "%s within %g sigma: p %.3g, alarm up to %.3g; noise from %s",
+		spec_report_is_alarm(report) ? "not the same" : "the same", report->sigma,
+		spec_significance_p(&report->result->test),
+		spec_significance_level(report->sigma),
+		report->result->known_variances ? "the channels variance.*"
+						: "the differences");
+	if (report->result->test.tests > 0)
+		print_statistic(stream, report);
+}
+
 static void
 print_bands(FILE *stream, const struct spec_report *report)
 {
@@ -174,6 +217,8 @@ spec_report_text(const struct spec_report *report, FILE *stream)
 	}
 	if (report->exact)
 		print_exact(stream, report);
+	if (report->sigma > 0)
+		print_test(stream, report);
 	if (report->shows_bands)
 		print_bands(stream, report);
 }

@@ -26,6 +26,7 @@ struct spec_report {
 	struct spec_report_metric metric[SPEC_REPORT_MOST_METRICS];
 	size_t metrics;
 	int shows_bands, exact;
+	double sigma;  /* of the test of significance; 0: none */
 	double peak;   /* of psnr, or 0 */
 	int different; /* filled by spec_report_judge */
 };
@@ -33,10 +34,14 @@ struct spec_report {
 /*
  * Measures the metrics that are shown or judged, and whether the images are different: as
  * such, in a sample that is not finite or a whole number, in a bit where exact is set,
- * beyond a tolerance, or, where no metric is judged and exact is not set, in any sample.
+ * beyond a tolerance or in expectation at sigma, or, where none of these is set, in any
+ * sample.
  * Error: SPEC_ENOMEM.
  */
 enum spec_status spec_report_judge(struct spec_report *report, struct spec_error *error);
+
+/* Whether the test of significance says that the images differ. */
+int spec_report_is_alarm(const struct spec_report *report);
 
 /* Write errors stay in the stream. */
 void spec_report_text(const struct spec_report *report, FILE *stream);

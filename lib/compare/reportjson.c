@@ -138,6 +138,33 @@ put_exact(struct spec_json *json, const struct spec_report *report)
 }
 
 static void
+put_test(struct spec_json *json, const struct spec_report *report)
+{
+	static const char *const kind[] = {"band", "tiles", "tile"};
+	const struct spec_images *result = report->result;
+	const struct spec_significance *test = &result->test;
+
+	spec_json_open(json, "same_within", '{', SPEC_JSON_INLINE);
+	spec_json_number(json, "sigma", report->sigma);
+	spec_json_truth(json, "same", !spec_report_is_alarm(report));
+	spec_json_number(json, "p", spec_significance_p(test));
+	spec_json_number(json, "alarm", spec_significance_level(report->sigma));
+	spec_json_text(json, "noise", result->known_variances ? "variance" : "differences");
+	spec_json_whole(json, "statistics", (long long)test->tests);
+	if (test->tests > 0) {
+		spec_json_text(json, "kind", kind[test->kind]);
+		put_channel(json, report->image[result->grid],
+			result->band_channel[test->in_band]);
+		spec_json_number(json, "value", test->value);
+		spec_json_number(json, "mean_difference", test->mean);
+		if (test->kind == SPEC_SIGNIFICANCE_ONE_TILE)
+			put_place(json, test->x + (size_t)result->region.x0,
+				test->y + result->region.y0);
+	}
+	spec_json_close(json);
+}
+
+static void
 put_image(struct spec_json *json, const struct spec_report *report, int side)
 {
 	const struct spec_image *image = report->image[side];
@@ -177,6 +204,8 @@ put_measured(struct spec_json *json, const struct spec_report *report)
 	spec_json_close(json);
 	if (report->exact)
 		put_exact(json, report);
+	if (report->sigma > 0)
+		put_test(json, report);
 	if (report->shows_bands)
 		put_bands(json, report);
 }

@@ -275,6 +275,40 @@ spec_comparing_structure(struct spec_comparing *comparison, struct spec_error *e
 	return status;
 }
 
+static size_t
+find_variance(const struct spec_image *image, size_t channel)
+{
+	char name[300];
+
+	snprintf(name, sizeof name, "variance.%s", image->channel[channel].name);
+	return spec_image_find_channel(image, name);
+}
+
+enum spec_status
+spec_comparing_variances(struct spec_comparing *comparison, struct spec_error *error)
+{
+	const struct spec_comparing_pairs *bands = &comparison->bands;
+	struct spec_comparing_pairs *pairs = &comparison->variances;
+
+	pairs->a = spec_memory_new(bands->count, sizeof *pairs->a, "bands", error);
+	pairs->b = spec_memory_new(bands->count, sizeof *pairs->b, "bands", error);
+	if (!pairs->a || !pairs->b)
+		return SPEC_ENOMEM;
+	if (comparison->sums[0].first)
+		return SPEC_OK;
+	for (size_t i = 0; i < bands->count; i++) {
+		pairs->a[i] = find_variance(comparison->a, bands->a[i]);
+		pairs->b[i] = find_variance(comparison->b, bands->b[i]);
+		if (pairs->a[i] == comparison->a->channels ||
+			pairs->b[i] == comparison->b->channels ||
+			comparison->a->channel[pairs->a[i]].sample == SPEC_SAMPLE_UINT ||
+			comparison->b->channel[pairs->b[i]].sample == SPEC_SAMPLE_UINT)
+			return SPEC_OK;
+	}
+	pairs->count = bands->count;
+	return SPEC_OK;
+}
+
 void
 spec_comparing_free(struct spec_comparing *comparison)
 {
@@ -282,6 +316,8 @@ spec_comparing_free(struct spec_comparing *comparison)
 	free(comparison->bands.b);
 	free(comparison->others.a);
 	free(comparison->others.b);
+	free(comparison->variances.a);
+	free(comparison->variances.b);
 	for (int side = 0; side < 2; side++) {
 		free(comparison->sums[side].first);
 		free(comparison->sums[side].channel);

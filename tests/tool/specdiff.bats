@@ -684,6 +684,65 @@ S0.600,000000nm 0.101501 0.1015 0.102' ] || complain "$answer"
   same a.exr c.exr
 }
 
+# Within the noise
+
+@test "--same-within: two seeds are the same, another scale or colour is not" {
+  cat >scene.pbrt <<'END'
+LookAt 0 0 -3  0 0 0  0 1 0
+Camera "perspective" "float fov" 45
+Film "rgb" "integer xresolution" 40 "integer yresolution" 40
+WorldBegin
+AttributeBegin
+  AreaLightSource "diffuse" "spectrum L" "D65" "float scale" 0.1
+  Translate 0 2 -4
+  Shape "disk" "float radius" 2.5
+AttributeEnd
+Material "diffuse" "spectrum reflectance" "15-red"
+Shape "sphere"
+END
+  sed 's/15-red/14-green/' scene.pbrt >green.pbrt
+  for seed in 1 2; do
+    specrender --spp 4 --seed $seed scene.pbrt -o $seed.exr
+  done
+  specrender --spp 4 --seed 2 green.pbrt -o green.exr
+  specconvert --scale 1.1 2.exr -o brighter.exr
+  answers 1 specdiff 1.exr 2.exr
+  answers 0 specdiff --same-within 3sigma 1.exr 2.exr
+  grep -q '^the same within 3 sigma: p .*noise from the differences' <<<"$answer" || complain "$answer"
+  answers 0 specdiff --same-within 2 2.exr 1.exr
+  answers 1 specdiff --same-within 3sigma 1.exr brighter.exr
+  grep -q '^not the same within 3 sigma: p ' <<<"$answer" || complain "$answer"
+  answers 1 specdiff --same-within 3sigma --json 1.exr green.exr
+  [ "$(jq -c '.same_within | [.sigma, .same, .noise, .p < 1e-9]' <<<"$answer")" = \
+    '[3,false,"differences",true]' ] || complain "$answer"
+  one=$answer
+  answers 1 specdiff -j 3 --same-within 3sigma --json 1.exr green.exr
+  [ "$answer" = "$one" ] || complain "$answer" 'instead of' "$one"
+}
+
+@test "--same-within: variances that the files have tell what is noise" {
+  # 128 differences of 0.5 have one sign; with variances 1 and 1.5 z is 3.58 of 3.93
+  for value in 1 1.5 2; do
+    spectral plain$value.exr --channel S0.500nm --pattern constant:$value
+    spectral $value.exr --channel S0.500nm --extra variance.S0.500nm --pattern constant:$value
+  done
+  answers 1 specdiff --same-within 3sigma plain1.exr plain1.5.exr
+  answers 0 specdiff --same-within 3sigma 1.exr 1.5.exr
+  grep -q 'noise from the channels variance.*, z -3.58, mean difference -0.5' <<<"$answer" || complain "$answer"
+  answers 1 specdiff --same-within 3sigma 1.exr 2.exr
+}
+
+@test "--same-within: a NaN differs, and too few pixels are told" {
+  spectral a.exr
+  spectral b.exr --pattern nan:2,3,4
+  answers 1 specdiff --same-within 9sigma a.exr b.exr
+  fails_cleanly specdiff --same-within 3sigma --crop 0,0,3,3 a.exr b.exr
+  [[ $stderr = *'9 pixels are too few for a test at 3 sigma'* ]]
+  for sigma in 0 x 3sig -1 '' 11; do
+    fails_cleanly specdiff --same-within "$sigma" a.exr b.exr
+  done
+}
+
 # Input, output and usage
 
 @test "either image can come from standard input" {
