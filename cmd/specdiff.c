@@ -9,6 +9,7 @@
 #include "cli/options.h"
 #include "cli/progress.h"
 #include "colour/observer.h"
+#include "compare/heatmap.h"
 #include "compare/report.h"
 #include "spectrum/lookup.h"
 
@@ -33,6 +34,12 @@ static const struct cli_option options[] = {
 	{0, "mask", "CHANNEL|FILE",
 		"compare where this is not 0: CHANNEL, CHANNEL=N, FILE,\n"
 		"FILE:CHANNEL, FILE:CHANNEL=N"},
+	{0, "heatmap", "FILE", "write a picture of where the images differ"},
+	{0, "side-by-side", "FILE", "write both images and that, in one picture"},
+	{0, "heatmap-metric", "NAME",
+		"of these pictures: rmse mae max sam gfc sid de76 de94 de2000\n"
+		"(default: de2000, without colours max)"},
+	{0, "heatmap-max", "VALUE", "of their last colour (default: the largest)"},
 	{0, "observer", "1931|1964|2015-2|2015-10|SPD",
 		"for colour differences (default: 1931)"},
 	{0, "illuminant", "SPD", "for colour differences of reflectance (default: D65)"},
@@ -60,6 +67,9 @@ struct job {
 	struct spec_matte mask;
 	struct spec_reader *mask_reader;
 	struct spec_window crop;
+	const char *heatmap_path, *side_path;
+	struct spec_heatmap heatmap;
+	int has_map; /* heatmap.map was chosen */
 	struct spec_images_setup setup;
 	struct spec_settings settings;
 };
@@ -173,10 +183,33 @@ take_flag(struct job *job, const char *name)
 	return 1;
 }
 
+/* Options of pictures; *known 0: it is another. */
+static enum spec_status
+take_picture(struct job *job, const char *name, const char *value, int *known,
+	struct spec_error *error)
+{
+	*known = 1;
+	if (strcmp(name, "heatmap-metric") == 0) {
+		job->has_map = 1;
+		return spec_metric_map(value, &job->heatmap.map, error);
+	}
+	if (strcmp(name, "heatmap-max") == 0)
+		return spec_number_parse(value, 1e-300, 1e300, "the last colour's value",
+			&job->heatmap.most, error);
+	if (strcmp(name, "heatmap") == 0)
+		job->heatmap_path = value;
+	else if (strcmp(name, "side-by-side") == 0)
+		job->side_path = value;
+	else
+		*known = 0;
+	return SPEC_OK;
+}
+
 static enum spec_status
 take(void *state, const char *name, const char *value, struct spec_error *error)
 {
 	struct job *job = state;
+	enum spec_status status;
 	int known;
 
 	if (!name)
@@ -197,6 +230,9 @@ take(void *state, const char *name, const char *value, struct spec_error *error)
 		job->setup.crop = &job->crop;
 		return spec_settings_crop(value, &job->crop, error);
 	}
+	status = take_picture(job, name, value, &known, error);
+	if (known)
+		return status;
 	if (strcmp(name, "observer") == 0)
 		job->observer = value;
 	else if (strcmp(name, "illuminant") == 0)
@@ -228,6 +264,40 @@ parse(struct cli *cli, struct job *job)
 		report->metric[i].shown = 1;
 }
 
+/* What the pictures need; whether they need colours. */
+static int
+plan_pictures(struct job *job)
+{
+	if (!job->heatmap_path && !job->side_path)
+		return 0;
+	if (!job->has_map) {
+		job->heatmap.map = SPEC_DETAIL_DE2000;
+		job->setup.maps |= 1u << SPEC_DETAIL_MAX;
+	}
+	job->setup.maps |= 1u << job->heatmap.map;
+	job->setup.want_seen = job->side_path != NULL;
+	return job->side_path || (job->has_map && job->heatmap.map >= SPEC_DETAIL_DE76);
+}
+
+static enum spec_status
+write_pictures(struct job *job, const struct spec_images *result, struct spec_error *error)
+{
+	enum spec_status status = SPEC_OK;
+
+	if (!result->comparable)
+		return SPEC_OK;
+	if (!job->has_map && !result->coloured)
+		job->heatmap.map = SPEC_DETAIL_MAX;
+	memcpy(job->heatmap.white_xyz, result->white_xyz, sizeof job->heatmap.white_xyz);
+	if (job->heatmap_path)
+		status =
+			spec_heatmap_write(job->heatmap_path, result, &job->heatmap, error);
+	if (status == SPEC_OK && job->side_path)
+		status = spec_heatmap_side_by_side(
+			job->side_path, result, &job->heatmap, error);
+	return status;
+}
+
 /* What the metrics need; whether a colour difference was asked for by name. */
 static int
 plan(struct job *job)
@@ -243,7 +313,7 @@ plan(struct job *job)
 		named |= asked && spec_metric_is_colour(&it->metric);
 	}
 	job->setup.peak = job->report.peak;
-	return named;
+	return plan_pictures(job) || named;
 }
 
 static enum spec_status
@@ -278,7 +348,7 @@ compare(struct job *job, struct spec_reader *reader[2], struct spec_images *resu
 	job->setup.colour_optional = !named;
 	if (job->mask_text)
 		status = open_mask(job, reader[0], error);
-	if (status == SPEC_OK && (named || !job->any_chosen)) {
+	if (status == SPEC_OK && (named || !job->any_chosen || job->heatmap_path)) {
 		status = spec_observer_load(job->observer, &observer, error);
 		if (status == SPEC_OK && !spec_observer_is_xyz(&observer))
 			status = spec_error_set(error, SPEC_EUSAGE,
@@ -357,6 +427,7 @@ main(int argc, char **argv)
 	cli_progress_end(&progress);
 	cli_check(&cli, status, &error);
 
+	cli_check(&cli, write_pictures(&job, &result, &error), &error);
 	cli_check(&cli, print_report(&job, reader, &result, &error), &error);
 	spec_images_free(&result);
 	spec_reader_close(reader[0]);

@@ -116,6 +116,8 @@ spec_comparing_colour(struct spec_comparing *comparison, struct spec_error *erro
 		return status;
 	comparison->spectral_setup.weight_xyz = comparison->weight_xyz;
 	comparison->result->coloured = 1;
+	memcpy(comparison->result->white_xyz, comparison->spectral_setup.white_xyz,
+		sizeof comparison->result->white_xyz);
 	return SPEC_OK;
 }
 

@@ -311,6 +311,31 @@ fill_maps(const struct run *run, const struct room *room, int line, size_t count
 	}
 }
 
+/* The colours of the pixels that count; of the others NaN. */
+static void
+fill_seen(const struct run *run, const struct room *room, int side, int line, size_t count)
+{
+	const struct spec_comparing *comparing = &run->comparing;
+	size_t bands = comparing->bands.count;
+	float *seen = comparing->result->seen[side] + 3 * (size_t)line * run->width;
+
+	for (size_t x = 0; x < 3 * run->width; x++)
+		seen[x] = NAN;
+	for (size_t i = 0; i < count; i++) {
+		for (size_t c = 0; c < 3; c++) {
+			const double *weight = comparing->weight_xyz + c * bands;
+			double sum = 0;
+
+			for (size_t k = 0; k < bands; k++) {
+				float here = room->plane[(size_t)side * bands + k][i];
+
+				sum += isfinite(here) ? weight[k] * here : 0;
+			}
+			seen[3 * room->pixel[i] + c] = (float)sum;
+		}
+	}
+}
+
 /* A line's sums for the test of significance, behind those of the bands. */
 static size_t
 band_bytes(const struct run *run)
@@ -365,6 +390,8 @@ kernel(void *state, struct spec_stream_worker *worker, int line, struct spec_err
 		if (setup->maps || setup->want_bands)
 			fill_maps(run, &room, line, count, setup->want_bands ? band : NULL);
 	}
+	for (int side = 0; side < 2 && comparing->result->seen[0]; side++)
+		fill_seen(run, &room, side, line, count);
 	if (setup->sigma > 0)
 		fill_test(run, worker, line, count, &room,
 			(struct spec_significance_sums *)(void *)((char *)band +
@@ -487,6 +514,7 @@ plan_results(
 
 	for (int kind = 0; kind < SPEC_DETAIL_PIXELS; kind++)
 		maps += comparing->setup->maps >> kind & 1;
+	maps += comparing->setup->want_seen ? 6 : 0;
 	if (maps > 0 && pixels > (size_t)settings->limits.memory / (maps * sizeof(float)))
 		return spec_error_set(error, SPEC_ERANGE,
 			"%zu values for each of %zu pixels are more than the limit "
@@ -497,6 +525,13 @@ plan_results(
 			continue;
 		result->map[kind] = spec_memory_new(pixels, sizeof(float), "pixels", error);
 		if (!result->map[kind])
+			return SPEC_ENOMEM;
+	}
+	for (int side = 0; side < 2 && comparing->setup->want_seen && result->coloured;
+		side++) {
+		result->seen[side] =
+			spec_memory_new(3 * pixels, sizeof(float), "pixels", error);
+		if (!result->seen[side])
 			return SPEC_ENOMEM;
 	}
 	if (comparing->setup->want_bands) {

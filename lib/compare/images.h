@@ -20,6 +20,7 @@ struct spec_images_setup {
 	int want_angle;
 	double peak;             /* of psnr; 0: the largest magnitude in A */
 	spec_detail_wanted maps; /* of pixels, that are to be kept */
+	int want_seen;           /* what the observer sees of both */
 	int want_bands;          /* sums of each band */
 	int resample;            /* other bands are no difference: the overlap counts */
 	int exact;               /* whether all bits are the same */
@@ -70,6 +71,9 @@ struct spec_images {
 	double *width_nm;              /* [bands], with the sums */
 	/* Where wanted, or null: width * height of region; NaN: outside the mask. */
 	float *map[SPEC_DETAIL_PIXELS];
+	/* X, Y, Z of each pixel of both images, likewise, on the scale of white_xyz. */
+	float *seen[2];
+	double white_xyz[3]; /* where coloured */
 };
 
 /*

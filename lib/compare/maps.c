@@ -78,6 +78,8 @@ spec_images_free(struct spec_images *result)
 	free(result->band_nm);
 	free(result->width_nm);
 	spec_significance_free(&result->test);
+	free(result->seen[0]);
+	free(result->seen[1]);
 	for (int kind = 0; kind < SPEC_DETAIL_PIXELS; kind++)
 		free(result->map[kind]);
 	*result = (struct spec_images){0};

@@ -743,6 +743,80 @@ END
   done
 }
 
+# Pictures of the differences
+
+# ppm_pixel FILE X Y: its red, green and blue.
+ppm_pixel() {
+  local width
+  width=$(head -c 40 "$1" | grep -a -m 1 -oE '^[0-9]+ ' | tr -d ' ')
+  tail -c "$(($(ppm_height "$1") * width * 3))" "$1" | od -An -v -tu1 -w3 |
+    awk -v at=$(($3 * width + $2)) 'NR == at + 1 { print $1, $2, $3; exit }'
+}
+
+ppm_height() {
+  head -c 40 "$1" | grep -a -m 1 -oE '^[0-9]+ [0-9]+' | cut -d ' ' -f 2
+}
+
+@test "--heatmap: dark where alike, yellow at the largest, magenta at infinity, a legend below" {
+  spectral a.exr --size 300x20 --grid 500:600:100 --pattern constant:0 --pattern inf:7,0,0
+  spectral b.exr --size 300x20 --grid 500:600:100 --pattern constant:0
+  spectral ramp.exr --size 300x20 --grid 500:600:100
+  answers 1 specdiff -m max --heatmap map.ppm --heatmap-metric max b.exr ramp.exr
+  [ "$(ppm_height map.ppm)" -gt 30 ]
+  # the largest, 0.3 + 0.19 + 0.1, is in the last corner; the first pixel has 0.101 of it
+  [ "$(ppm_pixel map.ppm 299 19)" = '253 231 37' ] || complain "$(ppm_pixel map.ppm 299 19)"
+  [ "$(ppm_pixel map.ppm 4 24)" = '68 1 84' ] || complain "$(ppm_pixel map.ppm 4 24)" # the legend
+  [ "$(ppm_pixel map.ppm 295 24)" = '253 231 37' ]
+  # 0.101 / 0.59 of 51 steps: 8.7305, between (.270595 .214069 .507052) and (.263663 .237631 .518762)
+  [ "$(ppm_pixel map.ppm 0 0)" = '68 59 131' ] || complain "$(ppm_pixel map.ppm 0 0)"
+  answers 1 specdiff -m max --heatmap map.ppm --heatmap-metric max --heatmap-max 0.101 b.exr ramp.exr
+  [ "$(ppm_pixel map.ppm 0 0)" = '253 231 37' ]
+  answers 1 specdiff --heatmap inf.ppm a.exr b.exr
+  [ "$(ppm_pixel inf.ppm 7 0)" = '255 0 255' ]
+  [ "$(ppm_pixel inf.ppm 8 0)" = '68 1 84' ]
+  answers 0 specdiff --heatmap same.png b.exr b.exr
+  [ -s same.png ]
+}
+
+@test "--heatmap: grey outside the mask" {
+  spectral a.exr --uint-id
+  answers 0 specdiff --mask id=3 --heatmap map.ppm a.exr a.exr
+  [ "$(ppm_pixel map.ppm 2 0)" = '128 128 128' ]
+  [ "$(ppm_pixel map.ppm 3 0)" = '68 1 84' ]
+}
+
+@test "--side-by-side: what spec2rgb shows of both, and the map" {
+  spectral a.exr --size 100x8
+  spectral b.exr --size 100x8 --pattern constant:0.5
+  answers 1 specdiff --side-by-side both.ppm -e -1 --heatmap-metric rmse a.exr b.exr
+  for side in a b; do
+    spec2rgb -e -1 $side.exr -o $side.ppm
+  done
+  for x in 0 50 99; do
+    for y in 0 7; do
+      [ "$(ppm_pixel both.ppm $x $y)" = "$(ppm_pixel a.ppm $x $y)" ] ||
+        complain "$(ppm_pixel both.ppm $x $y)" "$(ppm_pixel a.ppm $x $y)"
+      [ "$(ppm_pixel both.ppm $((x + 104)) $y)" = "$(ppm_pixel b.ppm $x $y)" ]
+    done
+  done
+  [ "$(ppm_pixel both.ppm 101 3)" = '255 255 255' ]
+}
+
+@test "pictures: a format that is not known, colours that are not there, a full device" {
+  spectral a.exr
+  fails_cleanly specdiff --heatmap map.xyz a.exr a.exr
+  fails_cleanly specdiff --heatmap map.png --heatmap-metric psnr a.exr a.exr
+  spectral far.exr --grid 1000:1100:50
+  fails_cleanly specdiff --heatmap map.png --heatmap-metric de94 far.exr far.exr
+  fails_cleanly specdiff --side-by-side map.png far.exr far.exr
+  answers 0 specdiff --heatmap map.png far.exr far.exr
+  fails_cleanly specdiff --heatmap nowhere/map.png a.exr a.exr
+  no_leftovers . a.exr far.exr map.png
+  # images that cannot be measured leave no picture
+  answers 1 specdiff --heatmap other.png a.exr far.exr
+  no_leftovers . a.exr far.exr map.png
+}
+
 # Input, output and usage
 
 @test "either image can come from standard input" {
