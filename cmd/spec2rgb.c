@@ -24,7 +24,14 @@ static const struct cli_option options[] = {
 		"encode whole numbers so (default: as the space has it)"},
 	{0, "adapt", "none|vonkries|bradford|cat02|cat16",
 		"adapt reflectance to the white of the space\n(default: none)"},
-	{'e', "exposure", "EV", "multiply by 2^EV (default: 0)"},
+	{'e', "exposure", "EV|auto|auto:P%",
+		"multiply by 2^EV (default: 0), or so that the average becomes\n"
+		"0.18, or the percentile 1"},
+	{0, "tone", "none|reinhard|reinhard:W|filmic",
+		"compress luminance by a curve (default: none)"},
+	{0, "gamut", "clip|desaturate|scale|perceptual",
+		"what becomes of colours outside the space (default: clip)"},
+	{0, "dither", NULL, "add noise before rounding to 8 bits"},
 	{'f', "format", "SUFFIX",
 		"of the output, such as ppm (default: the suffix of -o, else png)"},
 	{0, "bits", "8|16|32", "bits per sample (default: as the format has them)"},
@@ -48,10 +55,21 @@ struct job {
 	struct spec_space space;        /* with the transfer function that is used */
 	const char *space_text;         /* or null, as the next */
 	const struct spec_transfer *transfer;
+	struct spec_look look;
 	double exposure;
 	int bits;
 	struct spec_settings settings;
 };
+
+static enum spec_status
+take_exposure(struct job *job, const char *value, struct spec_error *error)
+{
+	job->exposure = 0;
+	job->look.metering = SPEC_METERING_NONE;
+	if (strncmp(value, "auto", 4) == 0)
+		return spec_look_meter(&job->look, value, error);
+	return spec_number_parse(value, -100, 100, "the exposure", &job->exposure, error);
+}
 
 static enum spec_status
 take_option(void *state, const char *name, const char *value, struct spec_error *error)
@@ -74,8 +92,13 @@ take_option(void *state, const char *name, const char *value, struct spec_error 
 		job->transfer = spec_transfer_find(value, error);
 		status = job->transfer ? SPEC_OK : SPEC_EUSAGE;
 	} else if (strcmp(name, "exposure") == 0) {
-		status = spec_number_parse(
-			value, -100, 100, "the exposure", &job->exposure, error);
+		status = take_exposure(job, value, error);
+	} else if (strcmp(name, "tone") == 0) {
+		status = spec_tone_parse(value, &job->look.tone, error);
+	} else if (strcmp(name, "gamut") == 0) {
+		status = spec_gamut_find(value, &job->look.gamut, error);
+	} else if (strcmp(name, "dither") == 0) {
+		job->look.dither = 1;
 	} else if (strcmp(name, "format") == 0) {
 		job->format = value;
 	} else if (strcmp(name, "model") == 0) {
@@ -102,6 +125,11 @@ parse(struct cli *cli, struct job *job)
 		cli_usage(cli, "--format and --bits are for pictures, not for --model");
 	if (job->model && (job->space_text || job->transfer))
 		cli_usage(cli, "--model has the components of sRGB alone");
+	if (job->model && (job->look.metering != SPEC_METERING_NONE || job->look.gamut ||
+				  job->look.tone.kind || job->look.dither))
+		cli_usage(cli, "--exposure auto, --tone, --gamut and --dither are for "
+			       "pictures, not for --model");
+	job->look.space = &job->space;
 	if (job->transfer)
 		job->space.transfer = job->transfer;
 }
@@ -153,7 +181,6 @@ develop(struct job *job, struct spec_reader *reader, const struct spec_rgb *rgb,
 	struct spec_develop *result, struct spec_error *error)
 {
 	const struct spec_window *window = &spec_reader_image(reader)->data;
-	struct spec_look look = {.space = &job->space};
 	struct spec_picture_kind kind;
 	struct spec_picture *picture = NULL;
 	struct spec_output output;
@@ -175,8 +202,8 @@ develop(struct job *job, struct spec_reader *reader, const struct spec_rgb *rgb,
 	status = spec_picture_open(&picture, &kind, &output, spec_window_width(window),
 		spec_window_height(window), &job->space, error);
 	if (status == SPEC_OK)
-		status = spec_develop_run(result, reader, rgb, &look, picture, kind.sample,
-			&job->settings, error);
+		status = spec_develop_run(result, reader, rgb, &job->look, picture,
+			kind.sample, &job->settings, error);
 	spec_picture_close(picture);
 	if (status == SPEC_OK)
 		return spec_output_commit(&output, error);

@@ -5,16 +5,14 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "colour/coordinates.h"
-#include "colour/encode.h"
+#include "image/meter.h"
 #include "image/stream.h"
 
 struct development {
 	const struct spec_rgb *rgb;
-	const struct spec_look *look;
 	struct spec_picture *picture;
-	enum spec_picture_sample sample;
-	struct spec_encoder encoder;
+	struct spec_finish finish;
+	struct spec_meter *meter; /* or null: rows are finished as they come */
 	struct spec_develop *result;
 	size_t width, row_bytes;
 	int y0;
@@ -25,12 +23,6 @@ struct row {
 	long long nonfinite;
 	int first_x;
 };
-
-static size_t
-sample_bytes(enum spec_picture_sample sample)
-{
-	return sample == SPEC_PICTURE_U8 ? 1 : sample == SPEC_PICTURE_U16 ? 2 : 4;
-}
 
 /*
  * v - v is 0 for a finite v and NaN for every other; the sum finds a whole row
@@ -61,28 +53,6 @@ find_nonfinite(const float *const linear[3], size_t width, struct row *row)
 	}
 }
 
-static void
-encode_row(const struct development *development, const float *const linear[3],
-	unsigned char *samples)
-{
-	size_t width = development->width;
-
-	for (size_t i = 0; i < 3; i++) {
-		if (development->sample == SPEC_PICTURE_U8) {
-			spec_encode8(
-				&development->encoder, linear[i], width, samples + i, 3);
-		} else if (development->sample == SPEC_PICTURE_U16) {
-			spec_encode16(&development->encoder, linear[i], width,
-				(uint16_t *)(void *)samples + i, 3);
-		} else {
-			float *to = (float *)(void *)samples + i;
-
-			for (size_t x = 0; x < width; x++)
-				to[3 * x] = linear[i][x];
-		}
-	}
-}
-
 static enum spec_status
 kernel(void *state, struct spec_stream_worker *worker, int line, struct spec_error *error)
 {
@@ -91,6 +61,7 @@ kernel(void *state, struct spec_stream_worker *worker, int line, struct spec_err
 	const float **plane = worker->scratch;
 	float *sums = (float *)(void *)(plane + development->rgb->terms);
 	float *const linear[3] = {sums, sums + width, sums + 2 * width};
+	unsigned char *samples;
 
 	(void)error;
 	for (size_t i = 0; i < development->rgb->terms; i++)
@@ -99,10 +70,13 @@ kernel(void *state, struct spec_stream_worker *worker, int line, struct spec_err
 	spec_rgb_row(development->rgb, plane, width, linear[0], linear[1], linear[2]);
 	find_nonfinite(
 		(const float *const *)linear, width, (struct row *)(void *)worker->payload);
-	spec_coordinates_row(development->look->space->coordinates, development->rgb->white,
-		linear, width);
-	encode_row(development, (const float *const *)linear,
-		worker->payload + sizeof(struct row));
+	samples = worker->payload + sizeof(struct row);
+	if (development->meter) {
+		memcpy(samples, sums, 3 * width * sizeof *sums);
+		return SPEC_OK;
+	}
+	spec_finish_expose(&development->finish, linear, width);
+	spec_finish_encode(&development->finish, linear, width, line, samples);
 	return SPEC_OK;
 }
 
@@ -123,8 +97,72 @@ deliver(void *state, const unsigned char *payload, int line, int count,
 			development->result->first_y = line + i;
 		}
 		development->result->nonfinite += row->nonfinite;
-		status = spec_picture_write(development->picture, row + 1, 1, error);
+		status = development->meter
+				 ? spec_meter_take(development->meter,
+					   (const float *)(const void *)(row + 1), error)
+				 : spec_picture_write(
+					   development->picture, row + 1, 1, error);
 	}
+	return status;
+}
+
+/* The stream from the image to the picture, or to the meter. */
+static enum spec_status
+run(struct development *development, struct spec_reader *reader,
+	const struct spec_settings *settings, struct spec_error *error)
+{
+	const struct spec_image *image = spec_reader_image(reader);
+	const struct spec_rgb *rgb = development->rgb;
+	unsigned char *wanted = spec_memory_new(image->channels, 1, "channels", error);
+	struct spec_stream stream = {.reader = {reader},
+		.wanted = {wanted},
+		.readers = 1,
+		.first_line = image->data.y0,
+		.lines = (int)spec_window_height(&image->data),
+		.lines_in = 1,
+		.payload_bytes = sizeof(struct row) + development->row_bytes,
+		.scratch_bytes = rgb->terms * sizeof(float *) +
+				 3 * development->width * sizeof(float),
+		.state = development,
+		.kernel = kernel,
+		.deliver = deliver};
+	enum spec_status status = SPEC_ENOMEM;
+
+	for (size_t i = 0; wanted && i < rgb->terms; i++)
+		wanted[rgb->channel[i]] = 1;
+	if (wanted)
+		status = spec_stream_run(&stream, settings, error);
+	free(wanted);
+	return status;
+}
+
+static enum spec_status
+develop(struct development *development, const struct spec_look *look,
+	enum spec_picture_sample sample, struct spec_reader *reader,
+	const struct spec_settings *settings, struct spec_error *error)
+{
+	const struct spec_window *window = &spec_reader_image(reader)->data;
+	size_t bytes = spec_picture_sample_bytes(sample);
+	enum spec_status status = spec_finish_init(
+		&development->finish, look, sample, development->rgb->white, error);
+
+	development->y0 = window->y0;
+	development->width = spec_window_width(window);
+	if (status == SPEC_OK && spec_meter_wanted(look)) {
+		bytes = sizeof(float);
+		status = spec_meter_open(&development->meter, &development->finish,
+			development->width, error);
+	}
+	/* Rounded up, so that the next row's header is aligned. */
+	development->row_bytes = (3 * development->width * bytes + 7) / 8 * 8;
+	if (status == SPEC_OK)
+		status = run(development, reader, settings, error);
+	if (status == SPEC_OK && development->meter)
+		status = spec_meter_finish(
+			development->meter, development->picture, settings, error);
+	if (status == SPEC_OK)
+		status = spec_picture_finish(development->picture, error);
+	spec_meter_close(development->meter);
 	return status;
 }
 
@@ -134,44 +172,18 @@ spec_develop_run(struct spec_develop *result, struct spec_reader *reader,
 	struct spec_picture *picture, enum spec_picture_sample sample,
 	const struct spec_settings *settings, struct spec_error *error)
 {
-	const struct spec_image *image = spec_reader_image(reader);
 	struct development *development =
 		spec_memory_new(1, sizeof *development, "tables", error);
-	unsigned char *wanted = spec_memory_new(image->channels, 1, "channels", error);
-	struct spec_stream stream = {.reader = {reader}, .wanted = {wanted}, .readers = 1};
 	enum spec_status status = SPEC_ENOMEM;
 
 	*result = (struct spec_develop){0};
-	if (development && wanted) {
-		for (size_t i = 0; i < rgb->terms; i++)
-			wanted[rgb->channel[i]] = 1;
-		*development = (struct development){.rgb = rgb,
-			.look = look,
-			.picture = picture,
-			.sample = sample,
-			.result = result,
-			.y0 = image->data.y0};
-		development->width = spec_window_width(&image->data);
-		/* Rounded up, so that the next row's header is aligned. */
-		development->row_bytes =
-			(3 * development->width * sample_bytes(sample) + 7) / 8 * 8;
-		spec_encoder_init(&development->encoder, look->space->transfer
-								 ? look->space->transfer
-								 : &spec_transfer_linear);
-		stream.first_line = image->data.y0;
-		stream.lines = (int)spec_window_height(&image->data);
-		stream.lines_in = 1;
-		stream.payload_bytes = sizeof(struct row) + development->row_bytes;
-		stream.scratch_bytes = rgb->terms * sizeof(float *) +
-				       3 * development->width * sizeof(float);
-		stream.state = development;
-		stream.kernel = kernel;
-		stream.deliver = deliver;
-		status = spec_stream_run(&stream, settings, error);
+	if (development) {
+		development->rgb = rgb;
+		development->picture = picture;
+		development->result = result;
+		development->meter = NULL;
+		status = develop(development, look, sample, reader, settings, error);
 	}
-	if (status == SPEC_OK)
-		status = spec_picture_finish(picture, error);
 	free(development);
-	free(wanted);
 	return status;
 }

@@ -37,9 +37,6 @@ extern const struct spec_picture_encoder spec_picture_encoder_ppm;
 extern const struct spec_picture_encoder spec_picture_encoder_exr;
 extern const struct spec_picture_encoder spec_picture_encoder_plugin;
 
-/* Bytes of a sample as the caller gives it. */
-size_t spec_picture_sample_bytes(enum spec_picture_sample sample);
-
 /*
  * Whether the plugin can write files of that suffix (without the dot). path: for
  * the message. Errors (SPEC_EUNSUPPORTED): it cannot, or it cannot be loaded.

@@ -21,6 +21,9 @@ enum spec_picture_sample {
 	SPEC_PICTURE_FLOAT /* linear, 1 is white; neither end is a limit */
 };
 
+/* Bytes of a sample as spec_picture_write is given it. */
+size_t spec_picture_sample_bytes(enum spec_picture_sample sample);
+
 enum spec_picture_format {
 	SPEC_PICTURE_PNG,
 	SPEC_PICTURE_PPM,

@@ -773,3 +773,111 @@ END
   spec2rgb --space acescg --bits 32 a.exr -o linear.tif
   oiiotool --info -v linear.tif | grep -q 'ICCProfile:profile_description: "ACEScg"'
 }
+
+# Exposure, tone, gamut, dither
+
+# Grey of 4, 1, 0.25 and 0.0625 in four pixels, as light.
+greys() {
+  printf '%s\n' '# quantity: spectral power distribution' '# columns: wavelength_nm a b c d' \
+    '360 4 1 0.25 0.0625' '830 4 1 0.25 0.0625' >greys.spd
+  specconvert -g 360:830:5 greys.spd --patches 4x1 -o greys.exr
+}
+
+@test "--exposure auto: the mean logarithm of luminance becomes that of 0.18" {
+  greys
+  # The geometric mean is 0.5, so Y becomes 1.44, 0.36, 0.09, 0.0225.
+  spec2rgb --space xyz --exposure auto greys.exr -o auto.exr
+  for pair in 0:1.44 1:0.36 2:0.09 3:0.0225; do
+    layers --print "${pair%:*},0" auto.exr | near "${pair#*:}" 1e-5 Y
+  done
+  # The same of a pipe, of any number of threads, and of a darker image.
+  spec2rgb --space xyz --exposure auto -j 1 - < <(cat greys.exr) >piped.exr -f exr
+  cmp auto.exr piped.exr
+  specconvert --scale 0.125 greys.exr | spec2rgb --space xyz -e auto - -o scaled.exr
+  cmp <(layers --print 2,0 auto.exr) <(layers --print 2,0 scaled.exr)
+}
+
+@test "--exposure auto:P%: the percentile of luminance becomes 1" {
+  greys
+  for pair in 100:1 75:4 50:16 25:64 1:64; do
+    spec2rgb --space xyz --exposure "auto:${pair%:*}%" greys.exr -o auto.exr
+    layers --print 0,0 auto.exr | near "${pair#*:}" "$(awk -v y="${pair#*:}" 'BEGIN { print y * 1e-3 }')" Y
+  done
+}
+
+@test "--exposure auto of black, of NaN, and on a full TMPDIR" {
+  spectral black.exr --pattern constant:0
+  quiet spec2rgb -e auto black.exr -o black.ppm
+  is '0 0 0' black.ppm 3 3
+  spectral odd.exr --pattern nan:2,3,4 --pattern inf:5,6,7
+  spec2rgb -e auto odd.exr -o odd.ppm 2>err
+  [ "$(cat err)" = 'spec2rgb: warning: odd.exr: 2 pixels are not finite, the first at 2,3' ] || complain "$(cat err)"
+  is '0 0 0' odd.ppm 2 3
+  TMPDIR=$PWD/missing fails_cleanly spec2rgb -e auto black.exr -o new.png
+  no_leftovers . black.exr black.ppm odd.exr odd.ppm err
+}
+
+@test "--tone: luminance by the curve, and the components by one factor" {
+  greys
+  for pair in reinhard:0.8 reinhard:4:1 filmic:0.91803; do
+    spec2rgb --space xyz --tone "${pair%:*}" greys.exr -o tone.exr
+    # Y of 4: 4/5; W itself; h(8) = (8 * 1.25 + 0.004) / (8 * 1.7 + 0.06) - 1/15 = 0.665691 over h(11.2) = 0.725129.
+    layers --print 0,0 tone.exr | near "${pair##*:}" 1e-3 Y
+  done
+  four
+  spec2rgb four.exr -o plain.exr
+  spec2rgb --tone reinhard four.exr -o tone.exr
+  read -r r g b < <(layers --print 1,0 plain.exr | awk '{ of[$1] = $2 } END { print of["R"], of["G"], of["B"] }')
+  layers --print 1,0 tone.exr | near "$(awk -v r="$r" -v g="$g" -v b="$b" 'BEGIN {
+    y = 0.2126390 * r + 0.7151687 * g + 0.0721923 * b; print r / (1 + y), g / (1 + y), b / (1 + y) }')" 1e-5 R G B
+}
+
+@test "--gamut: nothing stays outside, and what each map keeps is kept" {
+  four
+  spec2rgb four.exr -o clip.exr
+  run ! awk '$2 < 0 { bad = 1 } END { exit bad }' <(layers --print 1,0 clip.exr)
+  for gamut in desaturate perceptual scale; do
+    spec2rgb --gamut $gamut four.exr -o $gamut.exr
+    spec2rgb --gamut $gamut -j 1 four.exr | cmp - <(spec2rgb --gamut $gamut -j 3 <four.exr)
+    for at in 0,0 1,0 0,1 1,1; do
+      layers --print $at $gamut.exr | awk '$1 ~ /^[RGB]$/ { seen++; if ($2 < -1e-6 || $2 > 1 + 1e-6) bad = 1 } END { exit bad || seen != 3 }' ||
+        complain "$gamut at $at" "$(layers --print $at $gamut.exr)"
+    done
+  done
+  # Luminance stays where it was, of desaturate.
+  for at in 0,0 1,0 0,1; do
+    layers --print $at clip.exr desaturate.exr >both || { layers --print $at clip.exr; layers --print $at desaturate.exr; } >both
+    awk '
+      $1 == "R" { y[n[$1]++] += 0.2126390 * $2 } $1 == "G" { y[n[$1]++] += 0.7151687 * $2 } $1 == "B" { y[n[$1]++] += 0.0721923 * $2 }
+      END { d = y[0] - y[1]; exit !(n["R"] == 2 && d < 1e-5 && d > -1e-5) }' both || complain "$at" "$(cat both)"
+  done
+}
+
+@test "--dither: the mean of many pixels is between two codes, and the same in every run" {
+  spectral grey.exr --kind T --grid 360:830:5 --size 64x64 --pattern constant:0.502
+  spec2rgb --dither grey.exr -o one.ppm
+  spec2rgb --dither -j 1 grey.exr -o two.ppm
+  cmp one.ppm two.ppm
+  # 187.86 as in "half the light is sRGB 188": both codes are there.
+  tail -c $((64 * 64 * 3)) one.ppm | od -An -v -tu1 -w1 | awk '
+    { sum += $1; seen[$1 + 0]++ } END { mean = sum / NR; exit !(mean > 187.7 && mean < 188 && seen[187] && seen[188] && seen[187] + seen[188] == NR) }'
+  spec2rgb --dither --exposure auto:50% grey.exr -o three.ppm
+}
+
+@test "exposure, tone, gamut and dither that are refused" {
+  spectral a.exr
+  for value in auto: auto:0% auto:101% auto:50 automatic; do
+    fails_cleanly spec2rgb --exposure $value a.exr -o a.png
+  done
+  fails_cleanly spec2rgb --tone hable a.exr -o a.png
+  fails_cleanly spec2rgb --tone reinhard:0 a.exr -o a.png
+  fails_cleanly spec2rgb --gamut oklch a.exr -o a.png
+  fails_cleanly spec2rgb --gamut desaturate --space lab a.exr -o a.rgb.exr
+  fails_cleanly spec2rgb --dither --bits 16 a.exr -o a.png
+  fails_cleanly spec2rgb --dither a.exr -o a.rgb.exr
+  for option in '--exposure auto' '--tone filmic' '--gamut scale' '--dither'; do
+    # shellcheck disable=SC2086 # several words
+    fails_cleanly spec2rgb --model hsv $option a.exr -o x.exr
+  done
+  no_leftovers . a.exr
+}
