@@ -106,7 +106,7 @@ least_part(double part, double grey, double component)
 	double limit = component < 0 ? 0 : 1, within = (limit - grey) / (component - grey);
 	int leaves = (component < 0) | (component > 1);
 
-	return leaves & (within < part) ? within : part;
+	return (leaves & (within < part)) ? within : part;
 }
 
 static inline double

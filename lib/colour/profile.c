@@ -83,7 +83,7 @@ spec_profile_make(const struct spec_space *space, const struct spec_transfer *tr
 		free(*bytes);
 		*bytes = NULL;
 		return spec_error_set(error, SPEC_ERANGE,
-			"no ICC profile holds the primaries of %s", space->title);
+			"unable to make an ICC profile of %s", space->title);
 	}
 	if (!*bytes)
 		return SPEC_ENOMEM;

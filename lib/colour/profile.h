@@ -13,7 +13,7 @@
  * Given:    space     of coordinates RGB
  *           transfer  of the samples, or null: linear
  * Returned: *bytes, newly allocated, and *size
- * Errors:   SPEC_ERANGE  no profile holds these primaries; SPEC_ENOMEM
+ * Errors:   SPEC_ERANGE  lcms2 makes none of these primaries; SPEC_ENOMEM
  * Source:   ICC.1:2010-12 (version 4.3), by lcms2.
  */
 enum spec_status spec_profile_make(const struct spec_space *space,

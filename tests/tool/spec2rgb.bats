@@ -835,7 +835,7 @@ greys() {
 @test "--gamut: nothing stays outside, and what each map keeps is kept" {
   four
   spec2rgb four.exr -o clip.exr
-  run ! awk '$2 < 0 { bad = 1 } END { exit bad }' <(layers --print 1,0 clip.exr)
+  layers --print 1,0 clip.exr | awk '$2 < 0 { outside = 1 } END { exit !outside }'
   for gamut in desaturate perceptual scale; do
     spec2rgb --gamut $gamut four.exr -o $gamut.exr
     spec2rgb --gamut $gamut -j 1 four.exr | cmp - <(spec2rgb --gamut $gamut -j 3 <four.exr)
