@@ -27,14 +27,15 @@ const struct spec_transfer spec_transfer_adobe = {
 const struct spec_transfer spec_transfer_dci = {
 	"dci", "SMPTE RP 431-2:2011", 0, 0, 1, 1 / 2.6, 0, 0, 0};
 
-static const struct spec_transfer *const transfers[] = {&spec_transfer_linear,
+#define TRANSFERS 6
+static const struct spec_transfer *const transfers[TRANSFERS] = {&spec_transfer_linear,
 	&spec_transfer_srgb, &spec_transfer_rec709, &spec_transfer_rec2020,
 	&spec_transfer_adobe, &spec_transfer_dci};
 
 const struct spec_transfer *
 spec_transfer_at(size_t index)
 {
-	return index < sizeof transfers / sizeof *transfers ? transfers[index] : NULL;
+	return index < TRANSFERS ? transfers[index] : NULL;
 }
 
 const struct spec_transfer *
