@@ -201,6 +201,7 @@ camera() {
   fails_cleanly spec2rgb --observer Au a.exr -o a.png
   printf '%s\n' '550 1 1 1' >one.spd
   fails_cleanly spec2rgb --observer one.spd a.exr -o a.png
+  [[ $stderr = *"one wavelength alone"* ]]
   printf '%s\n' '550 1 1 1' '551 1 1 1' '1e300 1 1 1' >wide.spd
   fails_cleanly spec2rgb --observer wide.spd a.exr -o a.png
   [[ $stderr = *"unequal steps"* ]]

@@ -202,6 +202,26 @@ equal_energy_is_white(void **state)
 	}
 }
 
+/* Equal steps, here of 5 nm, stay as they are, with their values. */
+static void
+observers_keep_their_steps(void **state)
+{
+	struct spec_curve eye, table;
+
+	(void)state;
+	assert_int_equal(spec_observer_load("stiles-burch-1959", &eye, NULL), SPEC_OK);
+	assert_int_equal(spec_lookup_curve("stiles-burch-1959", &table, NULL), SPEC_OK);
+	assert_int_equal(eye.count, table.count);
+	for (size_t i = 0; i < table.count; i++)
+		assert_true(eye.wavelength_nm[i] == table.wavelength_nm[i]);
+	for (size_t i = 0; i < 3 * table.count; i++)
+		assert_true(eye.value[i] == table.value[i]);
+	assert_string_equal(eye.column[2], "b");
+	assert_false(spec_observer_is_xyz(&eye));
+	spec_curve_free(&eye);
+	spec_curve_free(&table);
+}
+
 /* ---- daylight ---- */
 
 /* The tables have three decimals, that of D65 four but of sums rounded before. */
@@ -259,6 +279,8 @@ daylight_lies_on_its_locus(void **state)
 	near(xy[1], .3837662610155782, 1e-12, "y at 4000 K");
 	assert_int_equal(spec_daylight_xy(25000, xy, NULL), SPEC_OK);
 	near(xy[0], .2498536704, 1e-12, "x at 25000 K");
+	assert_int_equal(spec_daylight_xy(6950, xy, NULL), SPEC_OK);
+	near(xy[0], 0.3060419203904202, 1e-12, "x at 6950 K");
 	/* The two branches meet to what their constants allow. */
 	assert_int_equal(spec_daylight_xy(7000, below, NULL), SPEC_OK);
 	assert_int_equal(spec_daylight_xy(7000.001, xy, NULL), SPEC_OK);
@@ -390,6 +412,7 @@ main(void)
 		cmocka_unit_test(lights_have_their_published_chromaticities),
 		cmocka_unit_test(lamps_hardly_change_with_the_step),
 		cmocka_unit_test(equal_energy_is_white),
+		cmocka_unit_test(observers_keep_their_steps),
 		cmocka_unit_test(daylight_has_its_tables),
 		cmocka_unit_test(daylight_lies_on_its_locus),
 		cmocka_unit_test(black_body_has_the_shape_of_a),
