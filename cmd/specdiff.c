@@ -210,7 +210,7 @@ take(void *state, const char *name, const char *value, struct spec_error *error)
 {
 	struct job *job = state;
 	enum spec_status status;
-	int known;
+	int known = 0;
 
 	if (!name)
 		return take_image(job, value, error);
@@ -364,6 +364,7 @@ compare(struct job *job, struct spec_reader *reader[2], struct spec_images *resu
 	if (status == SPEC_OK)
 		status = spec_images_compare(
 			result, reader[0], reader[1], &job->setup, &job->settings, error);
+	job->setup.observer = job->setup.illuminant = NULL;
 	spec_curve_free(&observer);
 	spec_curve_free(&illuminant);
 	return status;
@@ -406,7 +407,7 @@ main(int argc, char **argv)
 	static struct job job;
 	struct spec_error error = {0};
 	struct spec_reader *reader[2] = {NULL, NULL};
-	struct spec_images result;
+	struct spec_images result = {0};
 	struct cli_progress progress;
 	enum spec_status status;
 	struct cli cli;

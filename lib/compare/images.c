@@ -153,7 +153,7 @@ gather(const struct run *run, const struct spec_stream_worker *worker,
 
 	for (size_t i = 0; i < 2 * pairs->count; i++) {
 		int side = i >= pairs->count;
-		size_t at = i % pairs->count;
+		size_t at = side ? i - pairs->count : i;
 
 		if (summed) {
 			room->plane[i] = sum_row(
@@ -272,16 +272,23 @@ measure_others(const struct run *run, const struct spec_stream_worker *worker, i
 		compare_bits(pairs, room, count, y, &row->exact);
 }
 
+static void
+place_pixel(struct spec_measure_place *place, const size_t *pixel, size_t corner)
+{
+	place->x = pixel[place->x] + corner;
+}
+
 /* From the place among the pixels that count to that from the window's corner. */
 static void
 place_pixels(struct spec_measure *measure, const size_t *pixel, size_t count, size_t corner)
 {
-	struct spec_measure_place *place[] = {&measure->nonfinite_first,
-		&measure->difference.place, &measure->angle_most.place,
-		&measure->fit_least.place, &measure->colour_most.place};
-
-	for (size_t i = 0; i < sizeof place / sizeof *place && count > 0; i++)
-		place[i]->x = pixel[place[i]->x] + corner;
+	if (count == 0)
+		return;
+	place_pixel(&measure->nonfinite_first, pixel, corner);
+	place_pixel(&measure->difference.place, pixel, corner);
+	place_pixel(&measure->angle_most.place, pixel, corner);
+	place_pixel(&measure->fit_least.place, pixel, corner);
+	place_pixel(&measure->colour_most.place, pixel, corner);
 }
 
 /* The maps' rows, first without gaps, then each value in its place. */
