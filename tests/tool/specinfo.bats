@@ -521,6 +521,10 @@ about() {
   specinfo -p 0,0 light.exr | grep -qxE '# x0y0 luminance     7\.2983[0-9]*e\+06 cd/m\^2'
   spectral n.exr --grid 400:700:50 --pattern nan:1,0,1
   holds '[.pixels[0] | .XYZ, .xy, .Lab, .cct, .duv, .dominant_nm, .purity, .luminance] | unique == [null]' specinfo --json -p 1,0 n.exr
+  spectral blue.exr --grid 400:500:50
+  # ybar's share from 400 to 500 nm is 7 %: 7.4 of 106.857 nm (CIE 15).
+  about '.pixels[0].outside' 0.931 0.003 specinfo --json -p 1,0 blue.exr
+  specinfo -p 1,0 blue.exr | grep -qx '# x1y0 outside       93.1 % of Y, not counted'
   spectral infrared.exr --grid 900:1000:50
   holds '.pixels[0].XYZ == null and .pixels[0].S0 != null' specinfo --json -p 1,0 infrared.exr
   # XYZ of what is reradiated, too: more than that of the diagonal alone.
@@ -548,6 +552,9 @@ about() {
   specinfo --json -p 3,2 --plot c.svg a.exr >told.json
   x=$(jq '614 + 470 * (.pixels[0].xy[0] + 0.05) / 0.85 | . * 10 | floor / 10' told.json)
   grep -qE "d=\"M ${x/./\\.}[0-9]* [0-9.]+ C" c.svg || complain "no circle at $x"
+  spectral b.exr --grid 400:700:50 --extra A --extra Z
+  specinfo -p 3,2 --plot e.svg b.exr >told
+  cmp c.svg e.svg
   echo 'some 0 0 4 4' >rectangles
   specinfo --patches rectangles --plot d.svg a.exr >told
   run ! cmp -s c.svg d.svg
@@ -567,6 +574,8 @@ about() {
   done
   # Other quantities, each over its greatest value: D65 begins at 0.0341 / 117.812 of 1.04.
   grep -qE 'd="M [0-9.]+ 459\.8[78]' a.SVG
+  # The greatest value of all four lines is as high: 30 + 430 * 0.04 / 1.04.
+  [ "$(grep -oE '[ML] [0-9.]+ 46\.5[34][0-9]* ' a.SVG | wc -l)" -ge 4 ]
   # Without sRGB's triangle there is one closed path of three corners less.
   specinfo --observer 1964 --plot c.svg D65 >told
   specinfo --plot d.svg D65 >told
