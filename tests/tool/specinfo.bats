@@ -601,6 +601,10 @@ about() {
   fails_cleanly specinfo --plot nowhere/d.png D65
   spectral y.exr --channel Y
   fails_cleanly specinfo -p 0,0 --plot d.png y.exr
+  mkdir bin
+  cp "$BIN/specinfo" bin
+  SPECTRA_PATH=$ROOT/spectra fails_cleanly bin/specinfo --plot d.png D65
+  [[ $stderr = *plots.so* ]] || complain "$stderr"
   [ ! -e d.png ]
 }
 
