@@ -81,10 +81,9 @@ draw_names(cairo_t *cairo, const struct spec_plotting_request *request,
 	size_t names = request->count < MOST_NAMES ? request->count : MOST_NAMES;
 
 	for (size_t i = 0; i < names; i++) {
-		double x = panel->left +
-			   panel->width * (double)(i % columns) / (double)columns;
-		double y =
-			panel->top + panel->height + 50 + NAME_LINE * (double)(i / columns);
+		size_t column = i % columns, line = i / columns;
+		double x = panel->left + panel->width * (double)column / (double)columns;
+		double y = panel->top + panel->height + 50 + NAME_LINE * (double)line;
 		int last = i + 1 == names && names < request->count;
 
 		spec_plot_colour(cairo, i);

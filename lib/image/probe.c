@@ -395,7 +395,7 @@ put_place(struct spec_json *json, const struct spec_probe *probe)
 	spec_json_text(json, "name", probe->name);
 	spec_json_whole(json, "x0", (long long)probe->x);
 	spec_json_whole(json, "y0", probe->y);
-	spec_json_whole(json, "x1", (long long)(probe->x + probe->width));
+	spec_json_whole(json, "x1", (long long)probe->x + (long long)probe->width);
 	spec_json_whole(json, "y1", (long long)probe->y + probe->height);
 }
 
