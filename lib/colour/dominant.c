@@ -68,13 +68,14 @@ struct locus {
 	double (*xy)[2], *wavelength_nm;
 };
 
-/* The outermost meeting with the spectral locus: t, or 0, and its wavelength. */
+/* The outermost meeting with the spectral locus: t, or 0, and its wavelength, or NaN. */
 static double
 meet_locus(const struct locus *locus, const double from[2], const double direction[2],
 	double *wavelength_nm)
 {
 	double farthest = 0, s = 0;
 
+	*wavelength_nm = NAN;
 	for (size_t i = 0; i + 1 < locus->count; i++) {
 		double t = meet(from, direction, locus->xy[i], locus->xy[i + 1], &s);
 
