@@ -1,6 +1,7 @@
 #include "image/codec.h"
 
 #include <libdeflate.h>
+#include <pthread.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
@@ -143,12 +144,34 @@ static _Thread_local struct {
 	size_t room;
 } between;
 
+/* Frees them where a thread ends that nobody made release them. */
+static pthread_key_t at_end;
+static pthread_once_t made = PTHREAD_ONCE_INIT;
+static int has_key;
+
+static void
+make_key(void)
+{
+	has_key = pthread_key_create(&at_end, free) == 0;
+}
+
+static void
+keep(void *bytes, size_t room)
+{
+	between.bytes = bytes;
+	between.room = room;
+	pthread_once(&made, make_key);
+	if (has_key)
+		(void)pthread_setspecific(at_end, bytes);
+}
+
 void
 spec_codec_release(void)
 {
+	if (!between.bytes)
+		return;
 	free(between.bytes);
-	between.bytes = NULL;
-	between.room = 0;
+	keep(NULL, 0);
 }
 
 static int
@@ -157,8 +180,7 @@ reserve(size_t size)
 	if (between.bytes && between.room >= size)
 		return 1;
 	spec_codec_release();
-	between.bytes = malloc(size);
-	between.room = between.bytes ? size : 0;
+	keep(malloc(size), size);
 	return between.bytes != NULL;
 }
 
