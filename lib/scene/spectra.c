@@ -9,6 +9,7 @@
 #include "scene/paths.h"
 #include "scene/represented.h"
 #include "spectrum/curve.h"
+#include "spectrum/illuminant.h"
 #include "spectrum/lookup.h"
 #include "spectrum/spd.h"
 #include "spectrum/store.h"
@@ -273,18 +274,39 @@ load(const struct spec_arguments *arguments, const struct spec_parameter *parame
 	return status;
 }
 
+/* A light by formula, which has no file. */
+static enum spec_status
+compute(const struct spec_arguments *arguments, const struct spec_parameter *parameter,
+	const char *name, struct spec_scene_spectrum *spectrum)
+{
+	enum spec_status status =
+		spec_lookup_curve(name, &spectrum->curve, arguments->error);
+
+	spectrum->kind = SPEC_SCENE_CURVE;
+	if (status != SPEC_OK)
+		spec_scene_prefix(arguments->scene,
+			parameter ? &parameter->place : &arguments->place,
+			arguments->error);
+	return status;
+}
+
 static enum spec_status
 read_named(const struct spec_arguments *arguments, const struct spec_parameter *parameter,
 	const char *name, enum spec_scene_use use, struct spec_scene_spectrum *spectrum)
 {
 	struct spec_curve *curve = &spectrum->curve, quantity;
 	char *path = NULL;
-	enum spec_status status = find_named(arguments, parameter, name, use, &path);
+	enum spec_status status;
 	size_t column;
 
-	if (status == SPEC_OK)
-		status = load(arguments, parameter, path, use, spectrum);
-	free(path);
+	if (spec_illuminant_is_formula(name)) {
+		status = compute(arguments, parameter, name, spectrum);
+	} else {
+		status = find_named(arguments, parameter, name, use, &path);
+		if (status == SPEC_OK)
+			status = load(arguments, parameter, path, use, spectrum);
+		free(path);
+	}
 	if (status != SPEC_OK)
 		return status;
 	if (spectrum->kind == SPEC_SCENE_SPECTRUM) {

@@ -24,6 +24,8 @@ enum spec_scene_use {
  *                                      has a / or ends in .spd, .txt or .csv, else what
  *                                      spec_lookup_curve finds: the first column, for eta
  *                                      and k columns of that name
+ *   "spectrum L" "daylight:6504K"      a light by formula, spectrum/illuminant.h, and
+ *                "blackbody:3000K"     no other use's
  *   "spectrum eta" "metal-Au-eta"      pbrt's names: metal-*-eta, metal-*-k, glass-* and
  *                                      stdillum-*, where spectra/ has the same
  *   and what represented.h has

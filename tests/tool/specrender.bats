@@ -661,6 +661,35 @@ wrong_at() {
     END { exit rows != 11 }'
 }
 
+@test "a light by formula is one wherever a light's spectrum is named" {
+  local look='LookAt 0 0 0  0 0 1  0 1 0' wall='Shape "disk" "float height" 1'
+  for light in daylight:6504K blackbody:3000K daylight:25000K; do
+    specconvert $light -f spd -o lamp.spd
+    for name in $light lamp.spd; do
+      scene infinite.pbrt WorldBegin 'LightSource "infinite" "spectrum L" "'"$name"'"'
+      scene area.pbrt "$look" WorldBegin 'AreaLightSource "diffuse" "bool twosided" true "spectrum L" "'"$name"'"' "$wall"
+      scene point.pbrt "$look" WorldBegin 'LightSource "point" "spectrum I" "'"$name"'"' "$wall"
+      scene distant.pbrt "$look" WorldBegin 'LightSource "distant" "spectrum L" "'"$name"'"' "$wall"
+      for place in infinite area point distant; do
+        render $place.pbrt | specconvert -f spd - -o "$place.${name%%:*}"
+      done
+    done
+    for place in infinite area point distant; do
+      awk 'FNR == 1 { file++ } /^#/ { next } file == 1 { lamp[$1] = $2 }
+        file == 2 { if ($2 <= 0 || $2 < lamp[$1] * (1 - 1e-5) || $2 > lamp[$1] * (1 + 1e-5)) exit 1; rows++ }
+        END { exit rows != 4 }' $place.lamp.spd $place.${light%%:*} || complain "$light in $place:" "$(cat $place.*)"
+    done
+  done
+  scene a.pbrt WorldBegin 'LightSource "infinite" "spectrum L" "daylight:3000K"'
+  fails_cleanly specrender a.pbrt
+  [[ $stderr == *'a.pbrt:5:24: '*'3000'* ]] || complain "$stderr"
+  for material in '"diffuse" "spectrum reflectance"' '"dielectric" "spectrum eta"'; do
+    scene a.pbrt WorldBegin "Material $material"' "blackbody:3000K"' 'Shape "sphere"'
+    fails_cleanly specrender a.pbrt
+    [[ $stderr == *"a.pbrt:5:"*", which 'blackbody:3000K' is not" ]] || complain "$stderr"
+  done
+}
+
 @test "a Fourier spectrum that falls below 0 is clamped, with a warning" {
   scene a.pbrt WorldBegin 'LightSource "infinite" "fourierspectrum L" [ 300 800 1 1 0 ]'
   run --separate-stderr specrender --grid 400:600:50 -o a.exr a.pbrt

@@ -986,7 +986,8 @@ spectra_have_names(void **state)
 	static const struct {
 		const char *name, *title;
 	} lights[] = {{"D65", "D65"}, {"stdillum-D65", "D65"}, {"illuminants/F7", "FL7"},
-		{"stdillum-F11", "FL11"}};
+		{"stdillum-F11", "FL11"}, {"daylight:6504K", "6504 K"},
+		{"blackbody:3000K", "3000 K"}};
 	struct spec_scene scene;
 
 	(void)state;
@@ -1070,6 +1071,15 @@ faults_of_spectra_have_places(void **state)
 			"'metal-Au-eta' is not"},
 		{SPEC_EUSAGE, LIGHT "\"spectrum L\" \"no-such\"",
 			"t.pbrt:1:35: no spectrum 'no-such'"},
+		{SPEC_ERANGE, LIGHT "\"spectrum L\" \"daylight:3000K\"", "t.pbrt:1:35: "},
+		{SPEC_EUSAGE, LIGHT "\"spectrum L\" \"daylight:x\"", "t.pbrt:1:35: "},
+		{SPEC_EUSAGE, LIGHT "\"spectrum L\" \"blackbody:\"", "t.pbrt:1:35: "},
+		{SPEC_EUSAGE, GLASS "\"spectrum eta\" \"daylight:6504K\"",
+			"t.pbrt:1:34: 'eta' of Material \"dielectric\" is a refractive index, "
+			"which 'daylight:6504K' is not"},
+		{SPEC_EUSAGE, PAINT "\"spectrum reflectance\" \"blackbody:3000K\"",
+			"t.pbrt:1:31: 'reflectance' of Material \"diffuse\" is a reflectance, "
+			"which 'blackbody:3000K' is not"},
 		{SPEC_EUNSUPPORTED, LIGHT "\"spectrum L\" \"stdillum-F1\"",
 			"t.pbrt:1:35: 'L' of LightSource \"infinite\" is 'stdillum-F1', which "
 			"is not among our spectra"},
