@@ -24,6 +24,9 @@ static const struct cli_option options[] = {
 	{0, "films", "N", "films along the view ray that are deferred (default: 2)"},
 	{0, "supersample", "N", "N times the resolution each way"},
 	{0, "gbuffer", NULL, "write the first surface's geometry, too"},
+	{0, "variance", NULL,
+		"write the variance of each sample in the image, too, for\n"
+		"specdiff --same-within"},
 	{0, "extrapolate", "refuse|constant",
 		"reflectances and indices outside their data (default: refuse)"},
 	{0, "seed", "N", "of the random numbers (default: the scene's)"},
@@ -109,6 +112,8 @@ take_option(void *state, const char *name, const char *value, struct spec_error 
 		job->grid = value;
 	else if (strcmp(name, "gbuffer") == 0)
 		setup->geometry = 1;
+	else if (strcmp(name, "variance") == 0)
+		setup->variance = 1;
 	else
 		return spec_settings_take(&job->settings, name, value, &known, error);
 	return SPEC_OK;

@@ -12,6 +12,7 @@
 #include "image/samples.h"
 #include "image/save.h"
 #include "render/sums.h"
+#include "render/variance.h"
 
 #define USUAL_SAMPLES 16
 #define USUAL_DEPTH 5
@@ -56,6 +57,12 @@ other_slot(const struct spec_render *render)
 	return lamp_slot(render, render->lamps);
 }
 
+static size_t
+variance_slot(const struct spec_render *render)
+{
+	return other_slot(render) + SPEC_SUMS_GEOMETRY;
+}
+
 static int
 has_surface(const struct spec_render *render)
 {
@@ -66,7 +73,8 @@ has_surface(const struct spec_render *render)
 
 /* Adds a layer's bands, "mirror." and the like before the layout's names. */
 static enum spec_status
-add_bands(struct spec_render *render, const char *prefix, struct spec_error *error)
+add_bands(struct spec_render *render, const char *prefix, enum spec_sample sample,
+	struct spec_error *error)
 {
 	enum spec_status status = SPEC_OK;
 	char band[64], name[128];
@@ -75,26 +83,32 @@ add_bands(struct spec_render *render, const char *prefix, struct spec_error *err
 		spec_names_write(band, sizeof band, SPEC_ROLE_EMISSIVE, 0,
 			render->bands.wavelength_nm[i], 0);
 		snprintf(name, sizeof name, "%s%s", prefix, band);
-		status = spec_image_add_channel(&render->image, name,
-			render->setup.half ? SPEC_SAMPLE_HALF : SPEC_SAMPLE_FLOAT, error);
+		status = spec_image_add_channel(&render->image, name, sample, error);
 	}
 	return status;
+}
+
+static enum spec_sample
+sample_of(const struct spec_render *render)
+{
+	return render->setup.half ? SPEC_SAMPLE_HALF : SPEC_SAMPLE_FLOAT;
 }
 
 static enum spec_status
 add_films(struct spec_render *render, struct spec_error *error)
 {
+	enum spec_sample sample = sample_of(render);
 	enum spec_status status = SPEC_OK;
 	char prefix[48];
 
 	if (render->setup.films > 0)
-		status = add_bands(render, "through.", error);
+		status = add_bands(render, "through.", sample, error);
 	for (int i = 1; i <= render->setup.films && status == SPEC_OK; i++) {
 		snprintf(prefix, sizeof prefix, "film%d.", i);
 		status = spec_sums_add_channels(&render->image, prefix, error);
 		snprintf(prefix, sizeof prefix, "film%d.mirror.", i);
 		if (status == SPEC_OK)
-			status = add_bands(render, prefix, error);
+			status = add_bands(render, prefix, sample, error);
 	}
 	return status;
 }
@@ -113,7 +127,7 @@ add_lamps(struct spec_render *render, struct spec_error *error)
 		}
 		snprintf(name, sizeof name, "lamp%zu.", i);
 		if (status == SPEC_OK)
-			status = add_bands(render, name, error);
+			status = add_bands(render, name, sample_of(render), error);
 	}
 	return status;
 }
@@ -190,7 +204,11 @@ set_slots(struct spec_render *render, struct spec_error *error)
 		snprintf(prefix, sizeof prefix, "lamp%zu.", i + 1);
 		status = set_band_slots(render, prefix, lamp_slot(render, i), error);
 	}
-	render->slots = other_slot(render) + SPEC_SUMS_GEOMETRY;
+	if (status == SPEC_OK && render->setup.variance)
+		status = set_band_slots(
+			render, SPEC_VARIANCE_PREFIX, variance_slot(render), error);
+	render->slots = variance_slot(render) +
+			(render->setup.variance ? 2 * render->bands.count : 0);
 	return status;
 }
 
@@ -232,7 +250,9 @@ make_header(struct spec_render *render, struct spec_error *error)
 		status = spec_samples_set(
 			image, render->setup.samples, "the rendered image", error);
 	if (status == SPEC_OK)
-		status = add_bands(render, "", error);
+		status = add_bands(render, "", sample_of(render), error);
+	if (status == SPEC_OK && render->setup.variance)
+		status = add_bands(render, SPEC_VARIANCE_PREFIX, SPEC_SAMPLE_FLOAT, error);
 	if (status == SPEC_OK)
 		status = add_films(render, error);
 	if (status == SPEC_OK && has_surface(render))
@@ -265,6 +285,23 @@ settle_setup(struct spec_render *render)
 		setup->samples = scene->samples > 0 ? scene->samples : USUAL_SAMPLES;
 }
 
+/* Of one sample there is none, and the layers' would be missing. */
+static enum spec_status
+refuse_variance(const struct spec_render *render, struct spec_error *error)
+{
+	const struct spec_render_setup *setup = &render->setup;
+
+	if (!setup->variance)
+		return SPEC_OK;
+	if (setup->films > 0 || setup->discs)
+		return spec_error_set(error, SPEC_EUNSUPPORTED,
+			"variances of light layers are not kept: --variance and --defer do not go together");
+	if (setup->samples < 2)
+		return spec_error_set(error, SPEC_EUSAGE,
+			"a variance needs 2 samples per pixel or more (--spp N)");
+	return SPEC_OK;
+}
+
 /* What a film itself sends out has no layer. */
 static enum spec_status
 refuse_shining_films(const struct spec_render *render, struct spec_error *error)
@@ -294,7 +331,9 @@ spec_render_open(struct spec_render *render, const struct spec_scene *scene,
 
 	*render = (struct spec_render){.setup = *setup, .scene = scene};
 	settle_setup(render);
-	status = refuse_shining_films(render, error);
+	status = refuse_variance(render, error);
+	if (status == SPEC_OK)
+		status = refuse_shining_films(render, error);
 	if (status == SPEC_OK)
 		status = spec_bands_make(
 			&render->bands, setup->grid, setup->extrapolate, error);
@@ -496,6 +535,9 @@ finish_pixel(struct desk *desk, unsigned samples)
 	size_t bands = render->bands.count, films = (size_t)render->setup.films;
 	double share = 1.0 / samples;
 
+	if (render->setup.variance)
+		spec_variance_finish(
+			desk->sums + variance_slot(render), desk->sums, bands, samples);
 	for (size_t i = 0; i < 2 * bands; i++)
 		desk->sums[i] *= share;
 	for (size_t i = 0; i < films; i++) {
@@ -519,11 +561,22 @@ finish_pixel(struct desk *desk, unsigned samples)
 	}
 }
 
+/* Ends a batch of S0; the sums at its beginning stand behind its variance. */
+static unsigned
+end_batch(struct desk *desk, unsigned begin, unsigned end)
+{
+	size_t bands = desk->render->bands.count;
+	double *squares = desk->sums + variance_slot(desk->render);
+
+	spec_variance_add(squares, squares + bands, desk->sums, bands, end - begin);
+	return end;
+}
+
 static void
 render_pixel(struct desk *desk, int x, int y)
 {
 	const struct spec_render *render = desk->render;
-	unsigned samples = (unsigned)render->setup.samples;
+	unsigned samples = (unsigned)render->setup.samples, begin = 0;
 	struct spec_sampler sampler;
 
 	memset(desk->sums, 0, render->slots * sizeof *desk->sums);
@@ -537,6 +590,8 @@ render_pixel(struct desk *desk, int x, int y)
 		spec_sampler_pair(&sampler, pair);
 		ray = spec_camera_ray(&render->camera, x + pair[0], y + pair[1], &sampler);
 		add_sample(desk, &ray, &sampler);
+		if (render->setup.variance && spec_variance_ends(i, samples))
+			begin = end_batch(desk, begin, i + 1);
 	}
 	finish_pixel(desk, samples);
 }

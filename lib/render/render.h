@@ -31,6 +31,7 @@ struct spec_render_setup {
 	int films;    /* surfaces of thin films that are deferred, from the eye; 0: none */
 	int discs;    /* the first surface, where it is a disc, is deferred */
 	int geometry; /* the first surface's geometry goes along */
+	int variance; /* of each band's mean, beside it; not with films or discs */
 	int half;
 };
 
