@@ -68,14 +68,13 @@ chromaticity(const struct spec_curve *eye, const struct spec_curve *lamp, double
 /* ---- the CIE's lights ---- */
 
 /*
- * Chromaticities, of the observers of 1931 and 1964, as colour-science 0.4 lists them
- * (CCS_ILLUMINANTS, BSD-3-Clause), each of which was held against it. Its sources are, of
- * 1931: CIE 15:2004, table T.3 (A, C, D50 to D75) and table T.8.1 (FL, FL3, HP), of four or
- * five digits; CIE 15:2018, table 12 (LED). Of 1964: CIE 15:2004, table T.3; for B and FL1
- * to FL12 the list of five digits of Wikipedia, "Standard illuminant"; for all others, and
- * for D60 and ID of both, its own sums by ASTM E308-15, rounded here to five digits: not
- * published, but another program's. Its D50 and D65 are those of RGB spaces, .3457 .3585 and
- * .3127 .3290; these are CIE's, which its notes name.
+ * Chromaticities, of the observers of 1931 and 1964, of four or five digits; each was held
+ * against the list of colour-science 0.4 (CCS_ILLUMINANTS, BSD-3-Clause), whose sources are,
+ * of 1931: CIE 15:2004, and CIE 15:2018 for the LEDs. Of 1964: CIE 15:2004; for B and FL1 to
+ * FL12 the list of Wikipedia, "Standard illuminant". D60 and ID of both, and FL3, HP and LED
+ * of 1964, are its own sums by ASTM E308-15, rounded here: not published, but another
+ * program's. Its D50 and D65 are those of RGB spaces, .3457 .3585 and .3127 .3290; these are
+ * the CIE's, which its notes name.
  */
 static const struct {
 	const char *name;
