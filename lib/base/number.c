@@ -230,3 +230,26 @@ spec_number_parse_size(const char *text, long long most, const char *what, int *
 	*height = (int)value[1];
 	return SPEC_OK;
 }
+
+enum spec_status
+spec_number_parse_range(
+	const char *text, double *low, double *high, struct spec_error *error)
+{
+	const char *dots = strstr(text, "..");
+	char first[64];
+	enum spec_status status;
+
+	if (!dots || (size_t)(dots - text) >= sizeof first)
+		return spec_error_set(error, SPEC_EUSAGE,
+			"'%.200s' is not a range A..B, such as 0..1", text);
+	memcpy(first, text, (size_t)(dots - text));
+	first[dots - text] = '\0';
+	status = spec_number_parse(first, -1e30, 1e30, "the lower bound", low, error);
+	if (status == SPEC_OK)
+		status = spec_number_parse(
+			dots + 2, -1e30, 1e30, "the upper bound", high, error);
+	if (status == SPEC_OK && *low > *high)
+		status = spec_error_set(error, SPEC_EUSAGE,
+			"the range '%.200s' is reversed, it takes A..B with A <= B", text);
+	return status;
+}

@@ -44,6 +44,10 @@ enum spec_status spec_number_parse_angle(const char *text, double minimum_deg,
 enum spec_status spec_number_parse_size(const char *text, long long most, const char *what,
 	int *width, int *height, struct spec_error *error);
 
+/* "A..B": two numbers from -1e30 to 1e30, A no larger than B. */
+enum spec_status spec_number_parse_range(
+	const char *text, double *low, double *high, struct spec_error *error);
+
 /*
  * The number at the start of a text that need not end there, as the formats
  * write them; mark is the decimal mark, '.' or ','. Returns how many bytes it

@@ -8,28 +8,6 @@
 #include "spectrum/lookup.h"
 #include "spectrum/product.h"
 
-static enum spec_status
-parse_range(const char *text, double *low, double *high, struct spec_error *error)
-{
-	const char *dots = strstr(text, "..");
-	char first[64];
-	enum spec_status status;
-
-	if (!dots || (size_t)(dots - text) >= sizeof first)
-		return spec_error_set(error, SPEC_EUSAGE,
-			"'%.200s' is not a range A..B, such as 0..1", text);
-	memcpy(first, text, (size_t)(dots - text));
-	first[dots - text] = '\0';
-	status = spec_number_parse(first, -1e30, 1e30, "the lower bound", low, error);
-	if (status == SPEC_OK)
-		status = spec_number_parse(
-			dots + 2, -1e30, 1e30, "the upper bound", high, error);
-	if (status == SPEC_OK && *low > *high)
-		status = spec_error_set(error, SPEC_EUSAGE,
-			"the range '%.200s' is reversed, it takes A..B with A <= B", text);
-	return status;
-}
-
 enum spec_status
 spec_operation_parse(const char *option, const char *value,
 	struct spec_operation *operation, int *known, struct spec_error *error)
@@ -61,7 +39,8 @@ spec_operation_parse(const char *option, const char *value,
 		return spec_number_parse(
 			value, -1e3, 1e3, "the power", &operation->number, error);
 	case SPEC_OPERATION_CLAMP:
-		return parse_range(value, &operation->low, &operation->high, error);
+		return spec_number_parse_range(
+			value, &operation->low, &operation->high, error);
 	case SPEC_OPERATION_ILLUMINATE:
 	case SPEC_OPERATION_REFLECTANCE_OF:
 		return spec_lookup_light(value, &operation->curve, error);
