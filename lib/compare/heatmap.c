@@ -1,130 +1,28 @@
 #include "compare/heatmap.h"
 
-#include <ctype.h>
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
-#include "base/memory.h"
 #include "base/output.h"
 #include "colour/colourmap.h"
 #include "colour/space.h"
 #include "compare/metrics.h"
+#include "image/legend.h"
 #include "image/picture.h"
 
-#define GAP 4  /* pixels between panels and around the legend */
-#define BAR 12 /* pixels, the height of the legend's colours */
-#define DOT 2  /* pixels, a side of what the numbers are made of */
-#define GLYPH_WIDTH 3
-#define GLYPH_HEIGHT 5
-#define ADVANCE ((GLYPH_WIDTH + 1) * DOT)
-#define LEGEND (3 * GAP + BAR + GLYPH_HEIGHT * DOT)
-#define LEAST_WIDTH 256 /* the legend's numbers do not touch */
+#define GAP SPEC_LEGEND_GAP /* pixels between panels */
 
-/* A picture in memory, red, green and blue of each pixel. */
-struct canvas {
-	size_t width, height;
-	unsigned char *rgb;
-};
-
-/* Rows of three dots from above, the left one 4. */
-static const struct {
-	char character;
-	unsigned char row[GLYPH_HEIGHT];
-} glyphs[] = {
-	{'0', {7, 5, 5, 5, 7}},
-	{'1', {2, 6, 2, 2, 7}},
-	{'2', {7, 1, 7, 4, 7}},
-	{'3', {7, 1, 7, 1, 7}},
-	{'4', {5, 5, 7, 1, 1}},
-	{'5', {7, 4, 7, 1, 7}},
-	{'6', {7, 4, 7, 5, 7}},
-	{'7', {7, 1, 1, 1, 1}},
-	{'8', {7, 5, 7, 5, 7}},
-	{'9', {7, 5, 7, 1, 7}},
-	{'.', {0, 0, 0, 0, 2}},
-	{'-', {0, 0, 7, 0, 0}},
-	{'+', {0, 2, 7, 2, 0}},
-	{'A', {7, 5, 7, 5, 5}},
-	{'C', {7, 4, 4, 4, 7}},
-	{'D', {6, 5, 5, 5, 6}},
-	{'E', {7, 4, 7, 4, 7}},
-	{'F', {7, 4, 6, 4, 4}},
-	{'G', {7, 4, 5, 5, 7}},
-	{'I', {7, 2, 2, 2, 7}},
-	{'M', {5, 7, 7, 5, 5}},
-	{'R', {6, 5, 6, 5, 5}},
-	{'S', {7, 4, 7, 1, 7}},
-	{'X', {5, 5, 2, 5, 5}},
-};
-
-static enum spec_status
-open_canvas(struct canvas *canvas, size_t width, size_t height, struct spec_error *error)
+/* The map's colours, 0 being the same, with the numbers as they are measured. */
+static struct spec_legend
+legend_of(const struct spec_heatmap *heatmap, double most, char label[64])
 {
-	canvas->width = width;
-	canvas->height = height;
-	canvas->rgb = spec_memory_new(width * height, 3, "pixels", error);
-	if (!canvas->rgb)
-		return SPEC_ENOMEM;
-	memset(canvas->rgb, 255, width * height * 3);
-	return SPEC_OK;
-}
-
-static unsigned char *
-pixel_at(const struct canvas *canvas, size_t x, size_t y)
-{
-	return canvas->rgb + 3 * (y * canvas->width + x);
-}
-
-static void
-draw_glyph(struct canvas *canvas, size_t x0, size_t y0, char character)
-{
-	size_t i = 0;
-
-	while (i < sizeof glyphs / sizeof *glyphs && glyphs[i].character != character)
-		i++;
-	if (i == sizeof glyphs / sizeof *glyphs)
-		return;
-	for (size_t y = 0; y < GLYPH_HEIGHT * DOT; y++) {
-		for (size_t x = 0; x < GLYPH_WIDTH * DOT; x++) {
-			if (glyphs[i].row[y / DOT] & 4 >> x / DOT && x0 + x < canvas->width)
-				memset(pixel_at(canvas, x0 + x, y0 + y), 0, 3);
-		}
-	}
-}
-
-/* x0: where it begins; of anchor 1 its middle, of 2 its end. */
-static void
-draw_text(struct canvas *canvas, size_t x0, size_t y0, int anchor, const char *text)
-{
-	size_t shift = (size_t)anchor * (strlen(text) * ADVANCE - DOT) / 2;
-
-	x0 = x0 > shift ? x0 - shift : 0;
-	for (; *text; text++, x0 += ADVANCE)
-		draw_glyph(canvas, x0, y0, (char)toupper((unsigned char)*text));
-}
-
-static void
-draw_legend(struct canvas *canvas, const struct spec_heatmap *heatmap, double most)
-{
-	size_t top = canvas->height - LEGEND + GAP, width = canvas->width - 2 * GAP;
-	size_t below = top + BAR + GAP, end = canvas->width - GAP;
 	int falls = heatmap->map == SPEC_DETAIL_GFC;
-	char text[64];
 
-	for (size_t x = 0; x < width; x++)
-		for (size_t y = 0; y < BAR; y++)
-			spec_colourmap_viridis((double)x / (double)(width - 1),
-				pixel_at(canvas, GAP + x, top + y));
-	draw_text(canvas, GAP, below, 0, falls ? "1" : "0");
-	snprintf(text, sizeof text, "%.3g", falls ? 1 - most / 2 : most / 2);
-	draw_text(canvas, GAP + width / 2, below, 1, text);
-	snprintf(text, sizeof text, "%.3g", falls ? 1 - most : most);
-	draw_text(canvas, end, below, 2, text);
-	snprintf(text, sizeof text, "%s %s", spec_metric_map_name(heatmap->map),
+	snprintf(label, 64, "%s %s", spec_metric_map_name(heatmap->map),
 		spec_metric_map_unit(heatmap->map));
-	draw_text(canvas, GAP + width / 4, below, 1, text);
+	return (struct spec_legend){spec_colourmap_find("viridis", NULL), falls ? 1 : 0,
+		falls ? 1 - most : most, label};
 }
 
 /* What the scale shows: 0 is the same. */
@@ -153,26 +51,17 @@ find_most(const struct spec_heatmap *heatmap, const struct spec_images *result)
 }
 
 static void
-draw_map(struct canvas *canvas, size_t x0, const struct spec_heatmap *heatmap,
+draw_map(struct spec_canvas *canvas, size_t x0, const struct spec_heatmap *heatmap,
 	const struct spec_images *result, double most)
 {
-	static const unsigned char infinite[] = {255, 0, 255};
+	const struct spec_colourmap *map = spec_colourmap_find("viridis", NULL);
 	size_t width = spec_window_width(&result->region);
 	const float *value = result->map[heatmap->map];
 
-	for (size_t y = 0; y < spec_window_height(&result->region); y++) {
-		for (size_t x = 0; x < width; x++, value++) {
-			double here = distance(heatmap, *value);
-			unsigned char *rgb = pixel_at(canvas, x0 + x, y);
-
-			if (isnan(here))
-				memset(rgb, 128, 3);
-			else if (isinf(here))
-				memcpy(rgb, infinite, 3);
-			else
-				spec_colourmap_viridis(here / most, rgb);
-		}
-	}
+	for (size_t y = 0; y < spec_window_height(&result->region); y++)
+		for (size_t x = 0; x < width; x++, value++)
+			spec_colourmap_paint(map, distance(heatmap, *value), 0, most,
+				spec_canvas_pixel(canvas, x0 + x, y));
 }
 
 /* From the XYZ of what was seen to linear sRGB. */
@@ -196,7 +85,7 @@ find_matrix(const struct spec_heatmap *heatmap, double matrix[9], struct spec_er
 }
 
 static void
-draw_seen(struct canvas *canvas, size_t x0, const struct spec_images *result, int side,
+draw_seen(struct spec_canvas *canvas, size_t x0, const struct spec_images *result, int side,
 	const double matrix[9])
 {
 	const float *seen = result->seen[side];
@@ -204,7 +93,7 @@ draw_seen(struct canvas *canvas, size_t x0, const struct spec_images *result, in
 	for (size_t y = 0; y < spec_window_height(&result->region); y++) {
 		for (size_t x = 0; x < spec_window_width(&result->region); x++, seen += 3) {
 			double colour[] = {seen[0], seen[1], seen[2]};
-			unsigned char *rgb = pixel_at(canvas, x0 + x, y);
+			unsigned char *rgb = spec_canvas_pixel(canvas, x0 + x, y);
 
 			spec_matrix_apply(matrix, colour, colour);
 			for (int c = 0; c < 3; c++) {
@@ -220,7 +109,7 @@ draw_seen(struct canvas *canvas, size_t x0, const struct spec_images *result, in
 }
 
 static enum spec_status
-save(const char *path, const struct canvas *canvas, struct spec_error *error)
+save(const char *path, const struct spec_canvas *canvas, struct spec_error *error)
 {
 	struct spec_picture_kind kind;
 	struct spec_picture *picture = NULL;
@@ -247,25 +136,28 @@ save(const char *path, const struct canvas *canvas, struct spec_error *error)
 static size_t
 at_least(size_t width)
 {
-	return width < LEAST_WIDTH ? LEAST_WIDTH : width;
+	return width < SPEC_LEGEND_LEAST_WIDTH ? SPEC_LEGEND_LEAST_WIDTH : width;
 }
 
 enum spec_status
 spec_heatmap_write(const char *path, const struct spec_images *result,
 	const struct spec_heatmap *heatmap, struct spec_error *error)
 {
-	size_t width = spec_window_width(&result->region);
+	size_t width = at_least(spec_window_width(&result->region));
 	double most = find_most(heatmap, result);
-	struct canvas canvas;
-	enum spec_status status = open_canvas(&canvas, at_least(width),
-		spec_window_height(&result->region) + LEGEND, error);
+	char label[64];
+	struct spec_legend legend = legend_of(heatmap, most, label);
+	struct spec_canvas canvas;
+	enum spec_status status = spec_canvas_open(&canvas, width,
+		spec_window_height(&result->region) + spec_legend_height(&legend, width),
+		error);
 
 	if (status != SPEC_OK)
 		return status;
 	draw_map(&canvas, 0, heatmap, result, most);
-	draw_legend(&canvas, heatmap, most);
+	spec_legend_draw(&legend, &canvas);
 	status = save(path, &canvas, error);
-	free(canvas.rgb);
+	spec_canvas_close(&canvas);
 	return status;
 }
 
@@ -274,20 +166,25 @@ spec_heatmap_side_by_side(const char *path, const struct spec_images *result,
 	const struct spec_heatmap *heatmap, struct spec_error *error)
 {
 	size_t width = spec_window_width(&result->region);
+	size_t all = at_least(3 * width + 2 * GAP);
 	double most = find_most(heatmap, result), matrix[9];
-	struct canvas canvas;
+	char label[64];
+	struct spec_legend legend = legend_of(heatmap, most, label);
+	struct spec_canvas canvas;
 	enum spec_status status = find_matrix(heatmap, matrix, error);
 
 	if (status == SPEC_OK)
-		status = open_canvas(&canvas, at_least(3 * width + 2 * GAP),
-			spec_window_height(&result->region) + LEGEND, error);
+		status = spec_canvas_open(&canvas, all,
+			spec_window_height(&result->region) +
+				spec_legend_height(&legend, all),
+			error);
 	if (status != SPEC_OK)
 		return status;
 	draw_seen(&canvas, 0, result, 0, matrix);
 	draw_seen(&canvas, width + GAP, result, 1, matrix);
 	draw_map(&canvas, 2 * (width + GAP), heatmap, result, most);
-	draw_legend(&canvas, heatmap, most);
+	spec_legend_draw(&legend, &canvas);
 	status = save(path, &canvas, error);
-	free(canvas.rgb);
+	spec_canvas_close(&canvas);
 	return status;
 }
