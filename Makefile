@@ -28,7 +28,8 @@ endif
 # Debian packages that the build, the tests and the demo need beside gcc, make and git, and
 # those that only lint, bench and fuzz need.
 DEPS = g++ pkg-config libopenexr-dev libdeflate-dev libpng-dev liblcms2-dev libopenimageio-dev \
-	libembree-dev libcairo2-dev libfontconfig-dev libcmocka-dev bats openexr mandoc jq
+	libembree-dev libcairo2-dev libfontconfig-dev libgeographiclib-dev liberfa-dev libcmocka-dev \
+	bats openexr mandoc jq
 LINTDEPS = clang-format clang-tidy cppcheck shellcheck mandoc
 BENCHDEPS = openimageio-tools
 FUZZDEPS = clang libclang-rt-14-dev
@@ -46,6 +47,7 @@ LIBOBJECTS = $(LIBSOURCES:%.c=$(BUILD)/obj/%.o)
 LIBRARY = $(BUILD)/libspectools.a
 PLUGIN = $(BUILD)/lib/spectools/pictures.so
 PLOTS = $(BUILD)/lib/spectools/plots.so
+PLACES = $(BUILD)/lib/spectools/places.so
 DATA = $(BUILD)/share/spectools/spectra
 TABLE = $(BUILD)/share/spectools/upsampling/srgb.sigmoids
 PROGRAMS = $(TOOLS:%=$(BUILD)/bin/%)
@@ -62,8 +64,10 @@ OIIOFLAGS = $(shell pkg-config --cflags OpenImageIO)
 CAIROFLAGS = $(shell pkg-config --cflags cairo fontconfig)
 CAIROLIBS = $(shell pkg-config --libs cairo fontconfig)
 OIIOLIBS = $(shell pkg-config --libs OpenImageIO)
+PLACELIBS = $(shell pkg-config --libs geographiclib)
 CPPFLAGS = -Ilib -D_GNU_SOURCE -DSPEC_VERSION='"$(VERSION)"'
-LDLIBS = $(EXRLIBS) -ldeflate -lpng16 -Wl,--as-needed -llcms2 -Wl,--no-as-needed -ldl -pthread -lm
+LDLIBS = $(EXRLIBS) -ldeflate -lpng16 -Wl,--as-needed -llcms2 -lerfa -Wl,--no-as-needed -ldl \
+	-pthread -lm
 # Paths go to and fro between files at every surface. clang's would need another AR and ld.
 PATHFLAGS = $(if $(filter gcc%,$(CC)),-flto=auto)
 ALLCFLAGS = -std=c11 $(CFLAGS) $(MATHFLAGS) $(WARNFLAGS) $(CWARNFLAGS) $(SANFLAGS) -pthread -fPIC
@@ -84,7 +88,7 @@ ifneq ($(filter clean,$(MAKECMDGOALS)),)
 .NOTPARALLEL:
 endif
 
-all: $(PROGRAMS) $(PLUGIN) $(PLOTS) $(DATA) $(TABLE)
+all: $(PROGRAMS) $(PLUGIN) $(PLOTS) $(PLACES) $(DATA) $(TABLE)
 
 help:
 	@echo 'make deps       install what the build and the tests need (apt-get)'
@@ -149,6 +153,12 @@ $(PLOTS): $(PLOTSOURCES:%.c=$(BUILD)/obj/%.o)
 	$(SAY) link $@
 	$(QUIET)$(CC) $(ALLLDFLAGS) -shared -o $@ $^ $(CAIROLIBS) -lm
 
+# GeographicLib is C++.
+$(PLACES): $(BUILD)/obj/lib/place/places.o
+	@mkdir -p $(@D)
+	$(SAY) link $@
+	$(QUIET)$(CXX) $(ALLLDFLAGS) -shared -o $@ $^ $(PLACELIBS)
+
 # The tools find their data and plugins beside themselves, here as when installed.
 $(DATA):
 	@mkdir -p $(@D)
@@ -201,7 +211,7 @@ $(TESTHELPERS): $(BUILD)/tests/%: $(BUILD)/obj/tests/helper/%.o $(LIBRARY)
 check: all $(UNITTESTS) $(TESTHELPERS) $(BUILD)/tests/faults.so
 	@tests/check $(BUILD) unit rooms bats pages figures faults
 
-unit: $(UNITTESTS) $(PLUGIN) $(DATA) $(TABLE)
+unit: $(UNITTESTS) $(PLUGIN) $(PLACES) $(DATA) $(TABLE)
 	@tests/check $(BUILD) unit
 
 demo: all
@@ -246,7 +256,8 @@ lint-man: | $(READY)
 
 # Installing. Below build/ everything but the pages already lies as it will be installed.
 
-FILES = $(TOOLS:%=bin/%) lib/spectools/pictures.so lib/spectools/plots.so $(SPECTRA:%=share/spectools/%) \
+FILES = $(TOOLS:%=bin/%) $(patsubst %,lib/spectools/%.so,pictures plots places) \
+	$(SPECTRA:%=share/spectools/%) \
 	$(TABLE:$(BUILD)/%=%)
 MANUAL = $(foreach page,$(PAGES),share/man/man$(subst .,,$(suffix $(page)))/$(notdir $(page)))
 TO = $(DESTDIR)$(PREFIX)
