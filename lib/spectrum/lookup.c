@@ -126,7 +126,7 @@ static enum spec_status
 add_root(struct catalogue *catalogue, const char *root, struct spec_error *error)
 {
 	static const char *const groups[] = {"cmf", "illuminants", "glass", "metals",
-		"reflectance", "media", "upsampling"};
+		"reflectance", "media", "sky", "upsampling"};
 	int first = catalogue->root_count == 0;
 	char *roots =
 		join(first ? "" : catalogue->roots, first ? "" : " and ", root, error);

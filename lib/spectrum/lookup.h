@@ -1,7 +1,7 @@
 /*
  * Spectra by name. A root is a folder with the group folders cmf, illuminants, glass,
- * metals, reflectance, media and upsampling, each with .spd files and perhaps one level of
- * folders of them. The roots are the folders of the environment's SPECTRA_PATH (colons
+ * metals, reflectance, media, sky and upsampling, each with .spd files and perhaps one level
+ * of folders of them. The roots are the folders of the environment's SPECTRA_PATH (colons
  * between them), then ../share/spectools/spectra beside the folder of the running program.
  * The full name of such a file is "illuminants/D65", its short name "D65".
  */

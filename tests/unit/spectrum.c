@@ -739,7 +739,8 @@ every_file_is_complete(void **state)
 {
 	static const char *const quantities[] = {"colour-matching function",
 		"cone fundamental", "luminous efficiency", "daylight component",
-		"spectral power distribution", "refractive index", "reflectance"};
+		"spectral power distribution", "refractive index", "reflectance",
+		"sky model coefficient"};
 	struct spec_error error;
 	char **names;
 	size_t count;

@@ -1,0 +1,114 @@
+/*
+ * The light of the sun and of a clear sky, spectrally, on any plane.
+ * Source:   R. E. Bird, C. Riordan: Simple solar spectral model for direct and diffuse
+ *           irradiance on horizontal and tilted planes at the earth's surface for cloudless
+ *           atmospheres. SERI/TR-215-2436, 1984; Journal of Climate and Applied Meteorology
+ *           25, 1986, 87-97: SPCTRAL2. Equations "B" are those of the report.
+ * Where the report and NREL's program of the model, spectrl2_2.c, differ, the program has
+ * the later figures and is followed: 1.3366 in B 2-4 (1.335), 118.3 in B 2-11 (118.93), the
+ * gases in place of ozone in B 3-8, the factor of B 3-17 once, and the air mass of F. Kasten
+ * and A. T. Young (Applied Optics 28, 1989, 4735-4738) in B 2-5.
+ * Accuracy: that of the model: 5 to 10 % against rigorous codes at most wavelengths, more
+ *           where water absorbs; zenith angles up to 80 degrees are those it was made for.
+ */
+#ifndef SPEC_PLACE_CLEARSKY_H
+#define SPEC_PLACE_CLEARSKY_H
+
+#include "base/error.h"
+#include "spectrum/curve.h"
+
+#define SPEC_CLEARSKY_LOW_NM 300.
+#define SPEC_CLEARSKY_HIGH_NM 4000.
+
+/* Turbidity, of the air over that of its molecules: in the range of the sky's models. */
+#define SPEC_TURBIDITY_LOWEST 1.
+#define SPEC_TURBIDITY_HIGHEST 10.
+
+/* What is above the place, and the ground around it. */
+struct spec_atmosphere {
+	double pressure_hpa;      /* > 0, at the place */
+	double turbidity;         /* for the radiance of the sky (dome.h): 1 to 10 */
+	double aerosol_depth;     /* optical depth at 500 nm, >= 0 */
+	double aerosol_exponent;  /* Angstrom's: the depth goes as wavelength^-exponent */
+	double aerosol_albedo;    /* of one scattering at 400 nm, 0 to 1 */
+	double aerosol_asymmetry; /* the mean cosine of the angle of scattering, 0 to < 1 */
+	double ozone_cm;          /* atm-cm, >= 0 */
+	double water_cm;          /* of precipitable water, >= 0 */
+	double ground_albedo;     /* 0 to 1 */
+};
+
+/* Where the sun is seen, refraction included, and how far it is. */
+struct spec_clearsky_sun {
+	double zenith_deg;  /* 0 to < 90 */
+	double azimuth_deg; /* from north by east */
+	double distance_au; /* > 0 */
+};
+
+struct spec_clearsky_plane {
+	double tilt_deg;    /* 0 horizontal, 90 a wall, 180 a ceiling */
+	double azimuth_deg; /* that it faces, from north by east */
+};
+
+/*
+ * At sea level: 1013.25 hPa, turbidity 3 with its aerosol of exponent 1.3, rural aerosol
+ * (0.945 and 0.65, B table 3-1), 0.34 atm-cm of ozone, 1.42 cm of water (those of the
+ * standard atmospheres of middle latitudes and of the U.S.), albedo 0.2.
+ */
+struct spec_atmosphere spec_atmosphere_default(void);
+
+/*
+ * Sets the turbidity and the depth of aerosol with it, 0.04608 T - 0.04586 at 1 um and with
+ * the exponent that is there at 500 nm.
+ * Source: A. J. Preetham, P. Shirley, B. Smits: A Practical Analytic Model for Daylight.
+ *         SIGGRAPH 1999, 91-100, appendix 1 (its exponent is 1.3).
+ * Error:  SPEC_ERANGE  not SPEC_TURBIDITY_LOWEST to _HIGHEST
+ */
+enum spec_status spec_atmosphere_set_turbidity(
+	struct spec_atmosphere *atmosphere, double turbidity, struct spec_error *error);
+
+/*
+ * Sets the pressure to that of the U.S. Standard Atmosphere, 1976, at a height above sea
+ * level: 1013.25 (1 - h / 44330.8)^5.25588 hPa up to 11 km, and 226.32 exp(-(h - 11000) /
+ * 6341.62) above. Error: SPEC_ERANGE: not -1000 m to 20000 m.
+ */
+enum spec_status spec_atmosphere_set_altitude(
+	struct spec_atmosphere *atmosphere, double altitude_m, struct spec_error *error);
+
+/* SPEC_ERANGE: something in it is outside its range; the message says what. */
+enum spec_status spec_atmosphere_check(
+	const struct spec_atmosphere *atmosphere, struct spec_error *error);
+
+/*
+ * The air's mass on the way of the light, over that at the zenith (Kasten and Young 1989):
+ * 1 / (cos z + 0.50572 (96.07995 - z)^-1.6364), z in degrees from 0 to 90.
+ */
+double spec_air_mass(double zenith_deg);
+
+/*
+ * Irradiance [W m-2 nm-1] at the 122 wavelengths of the model, 300 to 4000 nm, a curve with
+ * the columns
+ *   outside  perpendicular to the sun, outside the atmosphere (B 2-2, at its distance)
+ *   direct   from the sun, perpendicular to it (B 2-1)
+ *   sun      of that on the plane; 0 where the plane looks away from it
+ *   sky      on the plane from the rest: from the sky, brighter around the sun, and from the
+ *            ground where the plane is not horizontal (B 3-1 to 3-18)
+ *   both     the sum of the two
+ * plane: null is horizontal.
+ * Errors:  SPEC_ERANGE  the sun at or below the horizon, what lies outside its range
+ *          SPEC_EUSAGE, SPEC_EIO, SPEC_EFORMAT  the data "sky/spctral2" cannot be had
+ */
+enum spec_status spec_clearsky_curve(const struct spec_clearsky_sun *sun,
+	const struct spec_atmosphere *atmosphere, const struct spec_clearsky_plane *plane,
+	struct spec_curve *curve, struct spec_error *error);
+
+/* The columns of that curve. */
+enum spec_clearsky_column {
+	SPEC_CLEARSKY_OUTSIDE,
+	SPEC_CLEARSKY_DIRECT,
+	SPEC_CLEARSKY_SUN,
+	SPEC_CLEARSKY_SKY,
+	SPEC_CLEARSKY_BOTH,
+	SPEC_CLEARSKY_COLUMNS
+};
+
+#endif
