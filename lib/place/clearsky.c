@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "place/sun.h"
 #include "spectrum/lookup.h"
 
 #define RADIANS (3.14159265358979323846 / 180)
@@ -56,21 +57,6 @@ spec_atmosphere_set_turbidity(
 }
 
 enum spec_status
-spec_atmosphere_set_altitude(
-	struct spec_atmosphere *atmosphere, double altitude_m, struct spec_error *error)
-{
-	enum spec_status status =
-		check_range("the altitude in metres", altitude_m, -1000, 20000, error);
-
-	if (status != SPEC_OK)
-		return status;
-	atmosphere->pressure_hpa =
-		altitude_m <= 11000 ? 1013.25 * pow(1 - altitude_m / 44330.8, 5.25588)
-				    : 226.32 * exp((11000 - altitude_m) / 6341.62);
-	return SPEC_OK;
-}
-
-enum spec_status
 spec_atmosphere_check(const struct spec_atmosphere *atmosphere, struct spec_error *error)
 {
 	const struct {
@@ -94,13 +80,6 @@ spec_atmosphere_check(const struct spec_atmosphere *atmosphere, struct spec_erro
 		status = check_range(ranges[i].what, ranges[i].value, ranges[i].lowest,
 			ranges[i].highest, error);
 	return status;
-}
-
-double
-spec_air_mass(double zenith_deg)
-{
-	return 1 /
-	       (cos(zenith_deg * RADIANS) + .50572 * pow(96.07995 - zenith_deg, -1.6364));
 }
 
 /* A row of the data, and the aerosol at its wavelength. */

@@ -6,8 +6,8 @@
  *           25, 1986, 87-97: SPCTRAL2. Equations "B" are those of the report.
  * Where the report and NREL's program of the model, spectrl2_2.c, differ, the program has
  * the later figures and is followed: 1.3366 in B 2-4 (1.335), 118.3 in B 2-11 (118.93), the
- * gases in place of ozone in B 3-8, the factor of B 3-17 once, and the air mass of F. Kasten
- * and A. T. Young (Applied Optics 28, 1989, 4735-4738) in B 2-5.
+ * gases in place of ozone in B 3-8, the factor of B 3-17 once, and the air mass of sun.h in
+ * B 2-5.
  * Accuracy: that of the model: 5 to 10 % against rigorous codes at most wavelengths, more
  *           where water absorbs; zenith angles up to 80 degrees are those it was made for.
  */
@@ -66,23 +66,9 @@ struct spec_atmosphere spec_atmosphere_default(void);
 enum spec_status spec_atmosphere_set_turbidity(
 	struct spec_atmosphere *atmosphere, double turbidity, struct spec_error *error);
 
-/*
- * Sets the pressure to that of the U.S. Standard Atmosphere, 1976, at a height above sea
- * level: 1013.25 (1 - h / 44330.8)^5.25588 hPa up to 11 km, and 226.32 exp(-(h - 11000) /
- * 6341.62) above. Error: SPEC_ERANGE: not -1000 m to 20000 m.
- */
-enum spec_status spec_atmosphere_set_altitude(
-	struct spec_atmosphere *atmosphere, double altitude_m, struct spec_error *error);
-
 /* SPEC_ERANGE: something in it is outside its range; the message says what. */
 enum spec_status spec_atmosphere_check(
 	const struct spec_atmosphere *atmosphere, struct spec_error *error);
-
-/*
- * The air's mass on the way of the light, over that at the zenith (Kasten and Young 1989):
- * 1 / (cos z + 0.50572 (96.07995 - z)^-1.6364), z in degrees from 0 to 90.
- */
-double spec_air_mass(double zenith_deg);
 
 /*
  * Irradiance [W m-2 nm-1] at the 122 wavelengths of the model, 300 to 4000 nm, a curve with
