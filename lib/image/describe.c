@@ -35,6 +35,10 @@ spec_describing_naming(enum spec_naming naming)
 		return "iset3d";
 	case SPEC_NAMING_KAIST:
 		return "kaist";
+	case SPEC_NAMING_OCEAN:
+		return "ocean";
+	case SPEC_NAMING_GIVEN:
+		return "given";
 	default:
 		return NULL;
 	}

@@ -288,10 +288,17 @@ spec_expanded_open(struct spec_reader **reader, const struct spec_represented *r
 	}
 	outer->inner = inner;
 	outer->base.storage = inner->storage;
-	*reader = &outer->base;
 	status = spec_image_text(spec_reader_image(inner), "spec:representation",
 		&outer->base.representation, error);
-	return status == SPEC_OK ? settle(outer, error) : status;
+	if (status == SPEC_OK)
+		status = settle(outer, error);
+	if (status == SPEC_OK) {
+		*reader = &outer->base;
+	} else {
+		outer->inner = NULL;
+		spec_reader_close(&outer->base);
+	}
+	return status;
 }
 
 /* ---- lines ---- */

@@ -10,7 +10,7 @@ extern const struct spec_reading_format spec_reading_expanded;
 
 /*
  * Puts a reader that gives bands in front of *reader, which holds what represented says.
- * After an error, too, *reader is to be closed. Errors: SPEC_EFORMAT, channels are missing;
+ * After an error *reader is as it was. Errors: SPEC_EFORMAT, channels are missing;
  * SPEC_ERANGE; SPEC_ENOMEM.
  */
 enum spec_status spec_expanded_open(struct spec_reader **reader,

@@ -97,6 +97,7 @@ spec_lint_file(struct spec_lint *lint, const char *path,
 		return status;
 	linting.image = spec_reader_image(reader);
 	linting.storage = spec_reader_storage(reader);
+	linting.exr = strcmp(spec_reader_format(reader), "OpenEXR") == 0;
 	check_storage(&linting);
 	spec_linting_channels(&linting);
 	spec_linting_attributes(&linting);

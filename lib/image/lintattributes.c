@@ -20,7 +20,9 @@ static const struct {
 	{"spec:camera", "string"}, {"spec:lamps", "string"}, {"worldToCamera", "m44f"},
 	{"worldToNDC", "m44f"}, {"chromaticities", "chromaticities"},
 	{"longitude", "float"}, {"latitude", "float"}, {"altitude", "float"},
-	{"capDate", "string"}, {"utcOffset", "float"}};
+	{"capDate", "string"}, {"utcOffset", "float"}, {"spec:representation", "string"},
+	{"spec:wavelengths", "string"}, {"spec:medium", "string"}, {"spec:samples", "int"},
+	{"spec:atlas", "string"}, {"spec:atlas-lines", "string"}};
 
 static void
 check_types(struct spec_linting *linting)
@@ -279,7 +281,8 @@ spec_linting_attributes(struct spec_linting *linting)
 		return;
 	check_types(linting);
 	if (linting->role != SPEC_ROLE_OTHER) {
-		check_layout(linting);
+		if (linting->exr)
+			check_layout(linting);
 		check_quantity(linting);
 		check_bins(linting);
 		check_handedness(linting);

@@ -15,6 +15,7 @@ struct spec_linting {
 	struct spec_lint *lint;
 	const struct spec_image *image; /* which may have no index */
 	struct spec_storage storage;
+	int exr; /* the file is OpenEXR, whose attributes the layout asks for */
 	enum spec_status status; /* of adding: once memory is out, nothing more is added */
 	struct spec_error *error;
 	/*

@@ -278,7 +278,9 @@ judge(struct run *run)
 			"is less than the length of S1, S2, S3, the first of %llu such samples",
 			run->excess.count);
 	}
-	judge_cover(linting, run->statistics);
+	/* An atlas's A is a number like the others. */
+	if (!spec_image_attribute(linting->image, "spec:atlas"))
+		judge_cover(linting, run->statistics);
 	judge_cosines(linting, run->statistics);
 	judge_finiteness(linting, run->statistics, 1, SPEC_LINT_NOTE);
 	for (size_t i = 0; i < run->channels && dark; i++) {

@@ -164,23 +164,35 @@ make_reader(const struct spec_reading_format *format, struct spec_source *source
 	return reader;
 }
 
+/* Bands in place of coefficients or lines, where an image has such. */
+static enum spec_status
+expand(struct spec_reader **reader, struct spec_error *error)
+{
+	struct spec_represented represented;
+	enum spec_status status = spec_represented_read(
+		&(*reader)->image, (*reader)->source.name, &represented, error);
+
+	if (status == SPEC_OK && (represented.coefficients > 0 || represented.lines > 0))
+		status = spec_expanded_open(reader, &represented, error);
+	return status;
+}
+
 /* Opens what make_reader made; refused as in open_any. */
 static enum spec_status
 finish_opening(struct spec_reader **result, struct spec_reader *reader, const char *path,
 	const struct spec_settings *settings, struct spec_error *refused,
 	struct spec_error *error)
 {
-	struct spec_represented represented = {0};
 	enum spec_status status;
 
 	reader->refused = refused;
 	status = reader->format->open(reader, path, settings, error);
 	reader->refused = NULL;
 	if (status == SPEC_OK && !refused)
-		status = spec_represented_read(
-			&reader->image, reader->source.name, &represented, error);
-	if (status == SPEC_OK && (represented.coefficients > 0 || represented.lines > 0))
-		status = spec_expanded_open(&reader, &represented, error);
+		status = expand(&reader, error);
+	else if (status == SPEC_OK && refused->status == SPEC_OK &&
+		 expand(&reader, refused) == SPEC_ENOMEM)
+		status = spec_error_set(error, SPEC_ENOMEM, "%s", refused->message);
 	if (status == SPEC_OK)
 		*result = reader;
 	else

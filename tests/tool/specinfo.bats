@@ -185,6 +185,10 @@ light_of() {
   holds '.naming == "iset3d" and .wavelength_nm == [400, 410]' specinfo --json iset.exr
   spectral kaist.exr --channel w420nm
   holds '.naming == "kaist" and .role == "reflective" and .quantity == "reflectance"' specinfo --json kaist.exr
+  spectral ocean.exr --channel a --channel b --attribute a.wavelength=4.5e-7 --attribute b.wavelength=5.5e-7
+  prints '  names         ocean, such as a' specinfo ocean.exr
+  spectral given.exr --channel a --channel b
+  holds '.naming == "given" and .wavelength_nm == [450]' specinfo --json --name-map a=450nm given.exr
 }
 
 @test "polarised, bispectral, not spectral" {
@@ -667,6 +671,32 @@ END
   specconvert --grid 400:700:50 -m D65 --patches 2x1 E A --extrapolate zero -o d.exr 2>/dev/null ||
     specconvert --grid 400:700:50 --patches 2x1 E A -o d.exr
   checks 0 d.exr
+  specconvert --to-vacuum d.exr -o vacuum.exr
+  checks 0 vacuum.exr
+  specconvert --to composite:2 d.exr -o lines.exr
+  checks 0 lines.exr
+  specconvert --to fourier:3 a.exr -o series.exr
+  checks 0 series.exr
+  specconvert --atlas -g 400:700:1 D65 Au -o atlas.exr
+  checks 0 atlas.exr 'note: file: has no bands: it is not spectral'
+}
+
+@test "--check of other formats does not ask for OpenEXR's attributes" {
+  spectral a.exr --pattern constant:0.5 --bins
+  for file in a.hdr a.tif a.hsr; do
+    specconvert a.exr -o $file
+    run -0 specinfo --check $file
+    [ -z "$output" ] || complain "$output"
+  done
+}
+
+@test "--check looks into other representations, and tells where they are damaged" {
+  spectral a.exr --pattern nan:3,2,5
+  specconvert -q --to fourier:5 a.exr -o series.exr
+  checks 1 series.exr 'warning: S0.400,000000nm at 3,2: is NaN, the first of 16 such samples in 16 channels'
+  LC_ALL=C sed 's/S0\.b1/S0.c1/' series.exr >lacking.exr
+  checks 1 lacking.exr 'note: file: has no bands: it is not spectral' "error: file: lacks the channel 'S0.b1'" \
+    'note: S0.a0 at 3,2: is NaN, the first of 5 such samples in 5 channels'
 }
 
 @test "--check as JSON" {
