@@ -7,6 +7,7 @@
 
 #include "base/source.h"
 #include "image/reader.h"
+#include "image/writer.h"
 
 #define UTF_8_MARK 0xef /* its first byte */
 
@@ -25,6 +26,15 @@ spec_kind_is_text_name(const char *path)
 	       has_suffix(path, ".csv");
 }
 
+static int
+has_image_suffix(const char *path)
+{
+	const char *point = strrchr(path, '.');
+
+	return point && point > path && !strchr(point, '/') &&
+	       spec_writer_knows_suffix(point);
+}
+
 int
 spec_kind_is_curve(const char *path)
 {
@@ -32,7 +42,7 @@ spec_kind_is_curve(const char *path)
 
 	if (spec_kind_is_text_name(path))
 		return 1;
-	if (spec_reader_recognises(path) || has_suffix(path, ".exr"))
+	if (spec_reader_recognises(path) || has_image_suffix(path))
 		return 0;
 	if (strcmp(path, "-") == 0 || strncmp(path, "/dev/fd/", 8) == 0)
 		return spec_source_peek(path, &byte, 1) == 1 &&

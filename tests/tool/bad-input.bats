@@ -105,8 +105,10 @@ largest=2147483647
 
 @test "a file that is not there" {
   for tool in spec2rgb specconvert; do
-    fails_cleanly $tool missing.exr -o out.exr
-    [[ $stderr = *missing.exr*'No such file or directory' ]] || complain "$stderr"
+    for suffix in exr hdr tif; do
+      fails_cleanly $tool missing.$suffix -o out.exr
+      [[ $stderr = *missing.$suffix*'No such file or directory' ]] || complain "$stderr"
+    done
   done
 }
 
