@@ -52,12 +52,6 @@ spec_observer_is_xyz(const struct spec_curve *observer)
 	return 0;
 }
 
-static const char *
-title_of(const struct spec_curve *curve)
-{
-	return curve->title && *curve->title ? curve->title : "untitled";
-}
-
 static int
 has_equal_steps(const struct spec_curve *curve)
 {
@@ -96,7 +90,7 @@ make_regular(
 
 	if (!regular && width > MOST_STEPS)
 		return spec_error_set(error, SPEC_EFORMAT,
-			"observer '%s' has unequal steps over %g nm", title_of(from),
+			"observer '%s' has unequal steps over %g nm", spec_curve_name(from),
 			width);
 	if (!regular)
 		steps = (size_t)ceil(width);
@@ -155,13 +149,14 @@ check_observer(const struct spec_curve *observer, struct spec_error *error)
 
 	if (observer->columns < 3 || n < 2)
 		return spec_error_set(error, SPEC_EFORMAT,
-			"observer '%s' is no table of x, y and z", title_of(observer));
+			"observer '%s' is no table of x, y and z",
+			spec_curve_name(observer));
 	step = (w[n - 1] - w[0]) / (double)(n - 1);
 	for (i = 0; i < n; i++)
 		if (!(fabs(w[i] - (w[0] + (double)i * step)) <= STEP_TOLERANCE * step))
 			return spec_error_set(error, SPEC_EFORMAT,
 				"observer '%s' has unequal steps at %g nm",
-				title_of(observer), w[i]);
+				spec_curve_name(observer), w[i]);
 	return SPEC_OK;
 }
 
@@ -207,15 +202,16 @@ check_product(const struct spec_curve *observer, const struct spec_curve *illumi
 		return SPEC_OK;
 	if (!illuminant)
 		return spec_error_set(error, SPEC_EFORMAT,
-			"observer '%s' has no finite, positive y", title_of(observer));
+			"observer '%s' has no finite, positive y",
+			spec_curve_name(observer));
 	v = illuminant->wavelength_nm;
 	if (v[illuminant->count - 1] < w[0] || v[0] > w[observer->count - 1])
 		return spec_error_set(error, SPEC_ERANGE,
 			"illuminant '%s' (%g..%g nm) lies outside the observer's %g..%g nm",
-			title_of(illuminant), v[0], v[illuminant->count - 1], w[0],
+			spec_curve_name(illuminant), v[0], v[illuminant->count - 1], w[0],
 			w[observer->count - 1]);
 	return spec_error_set(error, SPEC_EFORMAT,
-		"illuminant '%s' gives no finite, positive y", title_of(illuminant));
+		"illuminant '%s' gives no finite, positive y", spec_curve_name(illuminant));
 }
 
 /* On success the caller frees the product's value. */

@@ -220,7 +220,7 @@ fill_line(struct atlas *atlas, float *line, const double *sample, const double *
 		if (!isfinite(line[i]))
 			return spec_error_set(error, SPEC_ERANGE,
 				"'%.200s' has a value beyond 32-bit floats, %g",
-				curve->title, sample[i]);
+				spec_curve_name(curve), sample[i]);
 	}
 	for (size_t c = 0; c < 3 && weight; c++) {
 		double sum = 0;

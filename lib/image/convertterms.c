@@ -46,7 +46,7 @@ check_reflectance_of(
 	const struct spec_converting *converting, size_t at, struct spec_error *error)
 {
 	const struct spec_image *input = converting->convert->input;
-	const struct spec_curve *light = &converting->setup->operation[at].curve;
+	const struct spec_operation *operation = &converting->setup->operation[at];
 	const char *name = converting->name;
 
 	if (input->role != SPEC_ROLE_EMISSIVE || !spec_converting_is_light(converting, at))
@@ -61,10 +61,11 @@ check_reflectance_of(
 			"(--bands-only drops them)",
 			name);
 	if (spec_converting_to_band(converting) !=
-		(strstr(light->quantity, "per band") != NULL))
+		(strstr(operation->curve.quantity, "per band") != NULL))
 		return spec_error_set(error, SPEC_EUSAGE,
 			"%s: its values are per %s, those of '%s' are not (--per)", name,
-			spec_converting_to_band(converting) ? "band" : "nm", light->title);
+			spec_converting_to_band(converting) ? "band" : "nm",
+			spec_operation_name(operation));
 	return SPEC_OK;
 }
 
@@ -72,7 +73,9 @@ check_reflectance_of(
 static enum spec_status
 check_add(const struct spec_converting *converting, size_t at, struct spec_error *error)
 {
-	const struct spec_curve *curve = &converting->setup->operation[at].curve;
+	const struct spec_operation *operation = &converting->setup->operation[at];
+	const struct spec_curve *curve = &operation->curve;
+	const char *name = spec_operation_name(operation);
 	int light = spec_converting_is_light(converting, at),
 	    per_band = spec_converting_to_band(converting);
 
@@ -81,7 +84,7 @@ check_add(const struct spec_converting *converting, size_t at, struct spec_error
 	if (light ? !spec_curve_is_light(curve) : !spec_curve_is_ratio(curve))
 		return spec_error_set(error, SPEC_EUSAGE,
 			"%s: is %s, '%s' a %s: they cannot be added", converting->name,
-			light ? "light" : "a reflectance or transmittance", curve->title,
+			light ? "light" : "a reflectance or transmittance", name,
 			curve->quantity);
 	for (size_t i = 0; light && i < at; i++) {
 		const struct spec_operation *before = &converting->setup->operation[i];
@@ -89,13 +92,13 @@ check_add(const struct spec_converting *converting, size_t at, struct spec_error
 		if (before->kind == SPEC_OPERATION_RAISE && before->number != 1)
 			return spec_error_set(error, SPEC_EUSAGE,
 				"%s: light to the power of %g and '%s' cannot be added",
-				converting->name, before->number, curve->title);
+				converting->name, before->number, name);
 	}
 	if (light && (strstr(curve->quantity, "per band") != NULL) != per_band)
 		return spec_error_set(error, SPEC_EUSAGE,
 			"%s: its values are per %s, those of '%s' are not: they cannot be "
 			"added (--per)",
-			converting->name, per_band ? "band" : "nm", curve->title);
+			converting->name, per_band ? "band" : "nm", name);
 	return SPEC_OK;
 }
 
@@ -227,12 +230,12 @@ drop_below(struct spec_converting *converting, const struct spec_operation *oper
 	if (kept == 0)
 		return spec_error_set(error, SPEC_ERANGE,
 			"%s: '%s' is dark in all its bands", converting->name,
-			operation->curve.title);
+			spec_operation_name(operation));
 	if (kept == made->count)
 		return SPEC_OK;
 	spec_converting_note(converting,
 		"%s: without the bands at%s nm, where '%.100s' is below %g of its most",
-		converting->name, dropped, operation->curve.title,
+		converting->name, dropped, spec_operation_name(operation),
 		converting->setup->least);
 	converting->renewed = 1;
 	take_away(made, keep);
@@ -284,7 +287,7 @@ apply(const struct spec_converting *converting, const struct spec_operation *ope
 		if (value == 0)
 			return spec_error_set(error, SPEC_ERANGE,
 				"unable to divide by '%.200s': it is 0 at %.10g nm",
-				operation->curve.title, wavelength_nm);
+				spec_operation_name(operation), wavelength_nm);
 		so_far->factor /= value;
 		so_far->addend /= value;
 		return SPEC_OK;

@@ -54,7 +54,7 @@ find_divisors(const struct spec_curve *curve, enum spec_strip_scaling scaling,
 		if (!(divisor[i] > 0))
 			return spec_error_set(error, SPEC_ERANGE,
 				"'%.200s' has nothing above 0 to scale by in '%.100s'",
-				curve->title, curve->column[column]);
+				spec_curve_name(curve), curve->column[column]);
 	}
 	return SPEC_OK;
 }
@@ -71,8 +71,8 @@ check_range(const struct spec_curve *curve, const double divisor[CHANNELS],
 				return spec_error_set(error, SPEC_ERANGE,
 					"'%.200s' is %g at %.10g nm in '%.100s', which integers of "
 					"0 to 1 cannot hold (--scaling, or -o FILE.exr)",
-					curve->title, value, curve->wavelength_nm[j],
-					curve->column[i]);
+					spec_curve_name(curve), value,
+					curve->wavelength_nm[j], curve->column[i]);
 		}
 	}
 	return SPEC_OK;
@@ -133,7 +133,7 @@ spec_strip_save(const char *path, const struct spec_curve *curve,
 	if (status == SPEC_OK && curve->columns != 1 && curve->columns != CHANNELS)
 		status = spec_error_set(error, SPEC_ERANGE,
 			"'%.200s' has %zu columns; a strip is made of one or of three",
-			curve->title, curve->columns);
+			spec_curve_name(curve), curve->columns);
 	if (status == SPEC_OK)
 		status = find_divisors(curve, scaling, divisor, error);
 	if (status == SPEC_OK && kind.sample != SPEC_PICTURE_FLOAT)

@@ -112,7 +112,7 @@ spec_abscissa_convert(enum spec_abscissa abscissa, struct spec_curve *curve, int
 		if (!(nm > (i > 0 ? curve->wavelength_nm[i - 1] : 0)) || !isfinite(nm))
 			return spec_error_set(error, SPEC_ERANGE,
 				"'%.200s' has no ascending wavelengths: %.10g nm",
-				curve->title, nm);
+				spec_curve_name(curve), nm);
 	}
 	return convert_values(abscissa, curve, left, error);
 }

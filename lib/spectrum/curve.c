@@ -173,8 +173,8 @@ spec_curve_sample(const struct spec_curve *curve, size_t column,
 
 	if (column >= curve->columns)
 		return spec_error_set(error, SPEC_ERANGE,
-			"the curve '%.200s' has %zu columns, not %zu", curve->title,
-			curve->columns, column + 1);
+			"the curve '%.200s' has %zu columns, not %zu",
+			spec_curve_name(curve), curve->columns, column + 1);
 	from = curve->value + column * curve->count;
 	for (size_t i = 0; i < count; i++) {
 		double at_nm = wavelength_nm[i];

@@ -77,4 +77,11 @@ int spec_curve_is_ratio(const struct spec_curve *curve);
 /* Frees what curve holds and leaves it empty; null or empty is allowed. */
 void spec_curve_free(struct spec_curve *curve);
 
+/* What messages call a curve: its title, or that it has none. */
+static inline const char *
+spec_curve_name(const struct spec_curve *curve)
+{
+	return curve->title && *curve->title ? curve->title : "untitled";
+}
+
 #endif

@@ -29,6 +29,7 @@ spec_operation_parse(const char *option, const char *value,
 		kind++;
 	*known = kind < kinds;
 	operation->kind = *known ? (enum spec_operation_kind)kind : 0;
+	operation->value = value;
 	if (!*known)
 		return SPEC_OK;
 	switch (operation->kind) {
@@ -54,6 +55,15 @@ spec_operation_free(struct spec_operation *operation)
 {
 	spec_curve_free(&operation->curve);
 	*operation = (struct spec_operation){0};
+}
+
+const char *
+spec_operation_name(const struct spec_operation *operation)
+{
+	const char *title = operation->curve.title;
+
+	return (title && *title) || !operation->value ? spec_curve_name(&operation->curve)
+						      : operation->value;
 }
 
 int
@@ -85,7 +95,7 @@ change_all(const struct spec_operation *operation, struct spec_curve *curve,
 		if (!isfinite(change(operation, curve->value[i])))
 			return spec_error_set(error, SPEC_ERANGE,
 				"'%.200s' is %g at %.10g nm: the result is not finite",
-				curve->title, curve->value[i],
+				spec_curve_name(curve), curve->value[i],
 				curve->wavelength_nm[i % curve->count]);
 	}
 	/* They were those of other numbers. */

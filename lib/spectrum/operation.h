@@ -22,6 +22,7 @@ enum spec_operation_kind {
 struct spec_operation {
 	enum spec_operation_kind kind;
 	struct spec_curve curve; /* its first column; empty where there is none */
+	const char *value;       /* of the option, or null */
 	double number;
 	double low, high; /* low <= high */
 };
@@ -30,12 +31,15 @@ struct spec_operation {
  * The operation that an option stands for: multiply, divide, add, illuminate,
  * reflectance-of (the value names a curve, as spec_lookup_factor and, for the last two,
  * spec_lookup_light find it), scale (-1e30..1e30), raise (-1e3..1e3), clamp (A..B).
- * *known: whether it is one of these. Errors as those functions and spec_number_parse.
- * On an error the operation is empty.
+ * The operation keeps value. *known: whether it is one of these. Errors as those functions
+ * and spec_number_parse. On an error the operation is empty.
  */
 enum spec_status spec_operation_parse(const char *option, const char *value,
 	struct spec_operation *operation, int *known, struct spec_error *error);
 void spec_operation_free(struct spec_operation *operation);
+
+/* What messages call its curve: its title, else what the option says. */
+const char *spec_operation_name(const struct spec_operation *operation);
 
 /* Whether it is, at each wavelength, a factor and something added. */
 int spec_operation_is_affine(const struct spec_operation *operation);

@@ -154,11 +154,11 @@ spec_curve_check_sum(
 	if (!same)
 		return spec_error_set(error, SPEC_EUSAGE,
 			"'%.200s' is a %.200s, '%.200s' a %.200s: they cannot be added",
-			a->title, a->quantity, b->title, b->quantity);
+			spec_curve_name(a), a->quantity, spec_curve_name(b), b->quantity);
 	if (*a->unit && *b->unit && strcmp(a->unit, b->unit) != 0)
 		return spec_error_set(error, SPEC_EUSAGE,
 			"'%.200s' is in %.100s, '%.200s' in %.100s: they cannot be added",
-			a->title, a->unit, b->title, b->unit);
+			spec_curve_name(a), a->unit, spec_curve_name(b), b->unit);
 	return SPEC_OK;
 }
 
@@ -223,8 +223,9 @@ combine(enum how how, const struct spec_curve *a, const struct spec_curve *b,
 
 	if (count == 0)
 		return spec_error_set(error, SPEC_ERANGE,
-			"'%s' (%g..%g nm) and '%s' (%g..%g nm) do not meet", a->title,
-			a->wavelength_nm[0], a->wavelength_nm[a->count - 1], b->title,
+			"'%s' (%g..%g nm) and '%s' (%g..%g nm) do not meet",
+			spec_curve_name(a), a->wavelength_nm[0],
+			a->wavelength_nm[a->count - 1], spec_curve_name(b),
 			b->wavelength_nm[0], b->wavelength_nm[b->count - 1]);
 	status = spec_curve_new(count, a->columns, result, error);
 	if (status != SPEC_OK)
@@ -240,7 +241,7 @@ combine(enum how how, const struct spec_curve *a, const struct spec_curve *b,
 	if (status == SPEC_OK)
 		status = name_result(how, a, b, result, error);
 	if (status == SPEC_OK)
-		status = combine_values(how, other, b->title, result, error);
+		status = combine_values(how, other, spec_curve_name(b), result, error);
 	free(other);
 	if (status != SPEC_OK)
 		spec_curve_free(result);

@@ -110,7 +110,7 @@ check_bins(const struct spec_curve *curve, const double *known_nm, const double 
 			return spec_error_set(error, SPEC_ERANGE,
 				"'%.200s' covers %g..%g nm, not the bin %g..%g nm "
 				"(--extrapolate zero|constant)",
-				curve->title, known_nm[0], known_nm[curve->count],
+				spec_curve_name(curve), known_nm[0], known_nm[curve->count],
 				wanted_nm[i], wanted_nm[i + 1]);
 	}
 	return SPEC_OK;

@@ -211,14 +211,15 @@ check_numbers(const struct spec_curve *curve, struct spec_error *error)
 			return spec_error_set(error, SPEC_ERANGE,
 				"wavelength %.10g nm of '%.200s' is not finite, positive "
 				"and ascending",
-				curve->wavelength_nm[i], curve->title);
+				curve->wavelength_nm[i], spec_curve_name(curve));
 		before = curve->wavelength_nm[i];
 	}
 	for (size_t i = 0; i < curve->count * curve->columns; i++)
 		if (!isfinite(curve->value[i]))
 			return spec_error_set(error, SPEC_ERANGE,
 				"the value of '%.200s' at %.10g nm is not finite",
-				curve->title, curve->wavelength_nm[i % curve->count]);
+				spec_curve_name(curve),
+				curve->wavelength_nm[i % curve->count]);
 	return SPEC_OK;
 }
 

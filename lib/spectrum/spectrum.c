@@ -369,8 +369,8 @@ spec_spectrum_from_curve(const struct spec_curve *curve, size_t column,
 	*spectrum = (struct spec_spectrum){0};
 	if (column >= curve->columns)
 		return spec_error_set(error, SPEC_ERANGE,
-			"the curve '%.200s' has %zu columns, not %zu", curve->title,
-			curve->columns, column + 1);
+			"the curve '%.200s' has %zu columns, not %zu",
+			spec_curve_name(curve), curve->columns, column + 1);
 	status = spec_spectrum_tabulated(curve->wavelength_nm,
 		curve->value + column * curve->count, curve->count, SPEC_INTERPOLATE_LINEAR,
 		spectrum, error);

@@ -307,7 +307,7 @@ ratio() {
   light gap.spd 400 1 500 0 700 1
   head -c 4000 a.exr >short.exr
   fails_cleanly specconvert --divide gap.spd short.exr -o b.exr
-  [[ $stderr = *'it is 0 at 500 nm' ]] || complain "$stderr"
+  [[ $stderr = *"'gap.spd': it is 0 at 500 nm" ]] || complain "$stderr"
   light a.spd 400 1 700 1
   fails_cleanly specconvert --divide gap.spd a.spd -o b.spd
   [[ $stderr = *'it is 0 at 500 nm' ]] || complain "$stderr"
@@ -398,12 +398,12 @@ ratio() {
 @test "--reflectance-of leaves out what the light does not show, and says so" {
   spectral s.exr --size 1x1 --grid 400:700:100 --pattern constant:2
   light lamp.spd 400 0.001 500 4 600 0.1 700 0
-  warns "s.exr: without the bands at 400 700 nm, where '' is below 0.001 of its most" \
+  warns "s.exr: without the bands at 400 700 nm, where 'lamp.spd' is below 0.001 of its most" \
     specconvert --reflectance-of lamp.spd s.exr -o t.exr
   has_numbers t.exr '500 0.5' '600 20'
-  warns "s.exr: without the bands at 400 600 700 nm, where '' is below 0.1 of its most" \
+  warns "s.exr: without the bands at 400 600 700 nm, where 'lamp.spd' is below 0.1 of its most" \
     specconvert --reflectance-of lamp.spd --least 0.1 s.exr -o t.exr
-  warns "s.exr: without the bands at 700 nm, where '' is below 0 of its most" \
+  warns "s.exr: without the bands at 700 nm, where 'lamp.spd' is below 0 of its most" \
     specconvert --reflectance-of lamp.spd --least 0 s.exr -o t.exr
   # what is just as much as that stays
   light half.spd 400 2 700 4
