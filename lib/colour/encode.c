@@ -14,6 +14,7 @@
 #define LOW8 ((1u << SHIFT8) - 1)
 
 #define SHIFT16 13
+#define LOW16 ((1u << SHIFT16) - 1)
 #define LOWEST16 0x1p-20f /* where there is no straight part */
 
 /*
@@ -151,33 +152,79 @@ spec_encode8(const struct spec_encoder *encoder, const float *linear, size_t cou
 	}
 }
 
+/* The code by the formula, of a float in [0, 1]. */
 static uint16_t
-encode16(const struct spec_encoder *encoder, float linear)
+encode16(const struct spec_transfer *transfer, float v)
 {
-	uint32_t bits, index;
-	double scaled, part, whole;
-	float v = linear > 0 ? linear : 0;
+	return (uint16_t)(65535 * spec_transfer_encode(transfer, v) + .5);
+}
 
-	v = v < BELOW_ONE ? v : BELOW_ONE;
-	if (v <= encoder->direct_end)
-		return (uint16_t)(65535 * spec_transfer_encode(encoder->transfer, v) + .5);
-	bits = bits_of(v);
-	index = (bits >> SHIFT16) - (bits_of(encoder->lowest16) >> SHIFT16);
-	part = (bits & ((1u << SHIFT16) - 1)) * (1. / (1u << SHIFT16));
-	scaled = encoder->knot16[index] +
-		 (encoder->knot16[index + 1] - encoder->knot16[index]) * part + .5;
-	whole = floor(scaled);
-	if (scaled - whole < DOUBT16 || scaled - whole > 1 - DOUBT16)
-		return (uint16_t)(65535 * spec_transfer_encode(encoder->transfer, v) + .5);
-	return (uint16_t)whole;
+/* Floats brought into [0, 1), and the bits, above those of lowest, of what is not below it. */
+SPEC_VECTORISED static void
+clamp_bits16(const float *restrict linear, size_t count, float lowest,
+	float *restrict clamped, uint32_t *restrict above)
+{
+	uint32_t lowest_bits = bits_of(lowest), bits;
+	float v, u;
+
+	for (size_t i = 0; i < count; i++) {
+		v = linear[i];
+		v = v > 0 ? v : 0;
+		v = v < BELOW_ONE ? v : BELOW_ONE;
+		u = v > lowest ? v : lowest;
+		memcpy(&bits, &u, sizeof bits);
+		clamped[i] = v;
+		above[i] = bits - lowest_bits;
+	}
+}
+
+/*
+ * Codes by the straight part, or by the chord from low to high where that is sure of the
+ * whole number; else -1.
+ */
+SPEC_VECTORISED static void
+follow_chords(const struct spec_encoder *encoder, const float *restrict clamped,
+	const uint32_t *restrict above, const double *restrict low,
+	const double *restrict high, size_t count, int32_t *restrict code)
+{
+	double slope = encoder->transfer->slope, cut = encoder->transfer->cut;
+	double direct_end = (double)encoder->direct_end;
+
+	for (size_t i = 0; i < count; i++) {
+		double v = (double)clamped[i];
+		double part = (int32_t)(above[i] & LOW16) * (1. / (LOW16 + 1));
+		double scaled = low[i] + (high[i] - low[i]) * part + .5;
+		int32_t whole = (int32_t)scaled;
+		int32_t straight = (int32_t)(65535 * (slope * v) + .5);
+		double rest = scaled - whole;
+		int sure = (v > direct_end) & (rest >= DOUBT16) & (rest <= 1 - DOUBT16);
+
+		whole = sure ? whole : -1;
+		code[i] = v <= cut ? straight : whole;
+	}
 }
 
 void
 spec_encode16(const struct spec_encoder *encoder, const float *linear, size_t count,
 	uint16_t *out, size_t stride)
 {
-	size_t i;
+	const struct spec_transfer *transfer = encoder->transfer;
+	double low[BLOCK], high[BLOCK];
+	float clamped[BLOCK];
+	uint32_t above[BLOCK];
+	int32_t code[BLOCK];
+	size_t n;
 
-	for (i = 0; i < count; i++)
-		out[i * stride] = encode16(encoder, linear[i]);
+	for (; count > 0; count -= n, linear += n, out += n * stride) {
+		n = count < BLOCK ? count : BLOCK;
+		clamp_bits16(linear, n, encoder->lowest16, clamped, above);
+		for (size_t i = 0; i < n; i++) {
+			low[i] = encoder->knot16[above[i] >> SHIFT16];
+			high[i] = encoder->knot16[(above[i] >> SHIFT16) + 1];
+		}
+		follow_chords(encoder, clamped, above, low, high, n, code);
+		for (size_t i = 0; i < n; i++)
+			out[i * stride] = code[i] < 0 ? encode16(transfer, clamped[i])
+						      : (uint16_t)code[i];
+	}
 }

@@ -331,6 +331,34 @@ test_encode16_thresholds(void **state)
 	free(encoder);
 }
 
+/* Around every threshold of 16 bits, a run at a time. */
+static void
+test_encode16_runs(void **state)
+{
+	enum { STEPS = 5, CODES = 257 };
+	struct spec_encoder *encoder = new_encoder();
+	static float linear[STEPS * CODES];
+	static uint16_t word[STEPS * CODES];
+
+	(void)state;
+	for (int first = 1; first < 65536; first += CODES) {
+		for (size_t i = 0; i < STEPS * CODES; i++) {
+			double code = first + (double)(i / STEPS) - .5;
+			float v = (float)spec_srgb_decode(fmin(code / 65535, 1));
+			uint32_t bits;
+
+			memcpy(&bits, &v, sizeof bits);
+			linear[i] = float_of(bits + (uint32_t)(i % STEPS) - STEPS / 2);
+		}
+		spec_encode16(encoder, linear, STEPS * CODES, word, 1);
+		for (size_t i = 0; i < STEPS * CODES; i++) {
+			if (word[i] != code_long(linear[i], 65535))
+				fail_msg("%a: %d", (double)linear[i], word[i]);
+		}
+	}
+	free(encoder);
+}
+
 static void
 test_encode_special(void **state)
 {
@@ -839,6 +867,7 @@ main(void)
 		cmocka_unit_test(test_encode8_thresholds),
 		cmocka_unit_test(test_encode_sweep),
 		cmocka_unit_test(test_encode16_thresholds),
+		cmocka_unit_test(test_encode16_runs),
 		cmocka_unit_test(test_encode_special),
 		cmocka_unit_test(test_encode_stride),
 		cmocka_unit_test(test_ciede2000_sharma),

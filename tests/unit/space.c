@@ -190,31 +190,45 @@ test_transfer(void **state)
 	assert_int_equal(error.status, SPEC_EUSAGE);
 }
 
+enum { RUN = 600 }; /* more than two blocks of the encoders' */
+
+/* The codes of a run of floats, as they lie, beside the formula in long double. */
+static void
+check_run(const struct spec_encoder *encoder, const float *v)
+{
+	static unsigned char code[RUN];
+	static uint16_t word[RUN];
+
+	spec_encode8(encoder, v, RUN, code, 1);
+	spec_encode16(encoder, v, RUN, word, 1);
+	for (size_t i = 0; i < RUN; i++) {
+		long double clamped =
+			encode_long(encoder->transfer->name, v[i] < 1 ? v[i] : 1);
+
+		if (code[i] != (int)floorl(255 * clamped + .5L) ||
+			word[i] != (int)floorl(65535 * clamped + .5L))
+			fail_msg("%s of %a: %d, %d", encoder->transfer->name, (double)v[i],
+				code[i], word[i]);
+	}
+}
+
 /* Every code of 8 bits at both sides of its threshold; 16 bits in a sweep. */
 static void
 test_encoders(void **state)
 {
 	struct spec_encoder *encoder = malloc(sizeof *encoder);
+	static float v[RUN];
 
 	(void)state;
 	assert_non_null(encoder);
 	for (size_t i = 0; spec_transfer_at(i); i++) {
-		const struct spec_transfer *transfer = spec_transfer_at(i);
+		uint32_t bits = 0;
 
-		spec_encoder_init(encoder, transfer);
-		for (uint32_t bits = 0; bits < 0x3f900000; bits += 3001) {
-			float v;
-			long double clamped;
-			unsigned char code;
-			uint16_t word;
-
-			memcpy(&v, &bits, sizeof v);
-			clamped = encode_long(transfer->name, v < 1 ? v : 1);
-			spec_encode8(encoder, &v, 1, &code, 1);
-			spec_encode16(encoder, &v, 1, &word, 1);
-			if (code != (int)floorl(255 * clamped + .5L) ||
-				word != (int)floorl(65535 * clamped + .5L))
-				fail_msg("%s of %a: %d, %d", transfer->name, v, code, word);
+		spec_encoder_init(encoder, spec_transfer_at(i));
+		while (bits < 0x3f900000) {
+			for (size_t k = 0; k < RUN; k++, bits += 3001)
+				memcpy(&v[k], &bits, sizeof bits);
+			check_run(encoder, v);
 		}
 		for (int code = 1; code < 256; code++) {
 			float around[2] = {nextafterf(encoder->threshold[code], 0),
