@@ -33,6 +33,7 @@ SPEC_VECTOR_FUNCTION(double, spec_vector_cos, "cos");
 SPEC_VECTOR_FUNCTION(double, spec_vector_exp, "exp");
 SPEC_VECTOR_FUNCTION(double, spec_vector_expm1, "expm1");
 SPEC_VECTOR_FUNCTION(double, spec_vector_erf, "erf"); /* since glibc 2.35 */
+SPEC_VECTOR_FUNCTION(double, spec_vector_cbrt, "cbrt"); /* since glibc 2.35 */
 SPEC_VECTOR_FUNCTION(double, spec_vector_log, "log");
 SPEC_VECTOR_FUNCTION(float, spec_vector_expf, "expf");
 extern double spec_vector_pow(double, double) __asm__("pow")
@@ -43,6 +44,7 @@ extern double spec_vector_pow(double, double) __asm__("pow")
 #define spec_vector_exp exp
 #define spec_vector_expm1 expm1
 #define spec_vector_erf erf
+#define spec_vector_cbrt cbrt
 #define spec_vector_log log
 #define spec_vector_pow pow
 #define spec_vector_expf expf

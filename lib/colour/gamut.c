@@ -4,14 +4,13 @@
 #include <string.h>
 
 #include "base/vector.h"
+#include "colour/chroma.h"
 
-#define STEPS 60  /* at most; about seven are needed */
-#define NEAR 1e-9 /* to the edge of the gamut: less than a float can tell */
+#define BLOCK 256 /* pixels at a time */
 
-/* Ottosson 2020: from XYZ of D65 to cones, and from their cube roots to L, a and b. */
+/* Ottosson 2020: from XYZ of D65 to cones. */
 static const double cones[9] = {.8189330101, .3618667424, -.1288597137, .0329845436,
 	.9293118715, .0361456387, .0482003018, .2643662691, .6338517070};
-static const double oklab_lightness[3] = {.2104542553, .7936177850, -.0040720468};
 
 static const char *const names[] = {"clip", "desaturate", "scale", "perceptual"};
 
@@ -58,45 +57,63 @@ spec_gamut_init(struct spec_gamut_map *map, enum spec_gamut kind,
 	return spec_matrix_invert(map->to_cones, map->from_cones, error);
 }
 
-static double
-luminance_of(const struct spec_gamut_map *map, const double rgb[3])
+/* Of each pixel the largest component, and the factor of saturation; 1 where none counts. */
+SPEC_VECTORISED static void
+find_extremes(const double weight[3], const float *restrict r, const float *restrict g,
+	const float *restrict b, size_t count, float *restrict most,
+	double *restrict chroma)
 {
-	return map->luminance[0] * rgb[0] + map->luminance[1] * rgb[1] +
-	       map->luminance[2] * rgb[2];
+	double red_share = weight[0], green_share = weight[1], blue_share = weight[2];
+
+	for (size_t i = 0; i < count; i++) {
+		float red = r[i], green = g[i], blue = b[i];
+		double y = red_share * red + green_share * green + blue_share * blue;
+		float high = red > green ? red : green, low = red < green ? red : green;
+		double part;
+		int counts = (y > 0) & (y - y == 0);
+
+		high = high > blue ? high : blue;
+		low = low < blue ? low : blue;
+		part = y / (y - low);
+		most[i] = counts & (high > 1) ? high : 1;
+		chroma[i] = counts & (low < 0) ? part : 1;
+	}
 }
 
 void
 spec_gamut_measure(struct spec_gamut_map *map, const float *const plane[3], size_t count)
 {
-	for (size_t i = 0; i < count; i++) {
-		double rgb[3] = {plane[0][i], plane[1][i], plane[2][i]};
-		double y = luminance_of(map, rgb);
-		double least = fmin(rgb[0], fmin(rgb[1], rgb[2]));
-		double most = fmax(rgb[0], fmax(rgb[1], rgb[2]));
+	double chroma[BLOCK];
+	float most[BLOCK];
 
-		if (!isfinite(y) || !(y > 0))
-			continue;
-		if (most > map->most)
-			map->most = most;
-		if (least < 0 && y / (y - least) < map->chroma)
-			map->chroma = y / (y - least);
+	for (size_t x0 = 0; x0 < count; x0 += BLOCK) {
+		size_t n = count - x0 < BLOCK ? count - x0 : BLOCK;
+
+		find_extremes(map->luminance, plane[0] + x0, plane[1] + x0, plane[2] + x0,
+			n, most, chroma);
+		for (size_t i = 0; i < n; i++) {
+			map->most = most[i] > map->most ? most[i] : map->most;
+			map->chroma = chroma[i] < map->chroma ? chroma[i] : map->chroma;
+		}
 	}
 }
 
-static void
-scale(const struct spec_gamut_map *map, double rgb[3])
+SPEC_VECTORISED static void
+scale(const struct spec_gamut_map *map, float *restrict r, float *restrict g,
+	float *restrict b, size_t count)
 {
-	double y = luminance_of(map, rgb);
+	double red_share = map->luminance[0], green_share = map->luminance[1],
+	       blue_share = map->luminance[2];
+	double chroma = map->chroma, most = map->most;
 
-	for (int c = 0; c < 3; c++)
-		rgb[c] = (y + map->chroma * (rgb[c] - y)) / map->most;
-}
+	for (size_t i = 0; i < count; i++) {
+		double red = r[i], green = g[i], blue = b[i];
+		double y = red_share * red + green_share * green + blue_share * blue;
 
-static int
-is_inside(const double rgb[3])
-{
-	return rgb[0] >= 0 && rgb[0] <= 1 && rgb[1] >= 0 && rgb[1] <= 1 && rgb[2] >= 0 &&
-	       rgb[2] <= 1;
+		r[i] = (float)((y + chroma * (red - y)) / most);
+		g[i] = (float)((y + chroma * (green - y)) / most);
+		b[i] = (float)((y + chroma * (blue - y)) / most);
+	}
 }
 
 /* The part of the way from grey to a component that stays within 0 to 1, if it is less. */
@@ -136,109 +153,21 @@ desaturate(const double weight[3], float *restrict r, float *restrict g, float *
 	}
 }
 
-/* The colour whose chroma is a part of that of the cube roots, of grey's own lightness. */
-static void
-reduce(const struct spec_gamut_map *map, const double root[3], double grey, double part,
-	double rgb[3])
-{
-	for (int i = 0; i < 3; i++) {
-		double r = grey + part * (root[i] - grey);
-
-		rgb[i] = r * r * r;
-	}
-	spec_matrix_apply(map->from_cones, rgb, rgb);
-}
-
-/* How far the nearest component is from leaving 0 to 1; negative where it has left. */
-static double
-margin_of(const double rgb[3])
-{
-	double least = fmin(rgb[0], fmin(rgb[1], rgb[2]));
-	double most = fmax(rgb[0], fmax(rgb[1], rgb[2]));
-
-	return fmin(least, 1 - most);
-}
-
-/*
- * The part of chroma at which the margin is 0, from grey, where it is not below 0, and a
- * colour outside: regula falsi, halving what stays (Dowell and Jarratt 1971, "Illinois").
- */
-static double
-find_part(const struct spec_gamut_map *map, const double root[3], double grey,
-	double at_grey, double at_colour)
-{
-	double inside = 0, outside = 1, low = at_grey, high = at_colour, rgb[3];
-	int side = 0;
-
-	for (int i = 0; i < STEPS && outside - inside > NEAR; i++) {
-		double part = (inside * high - outside * low) / (high - low), margin;
-
-		reduce(map, root, grey, part, rgb);
-		margin = margin_of(rgb);
-		if (fabs(margin) < NEAR)
-			return part;
-		if (margin > 0) {
-			inside = part;
-			low = margin;
-			high = side > 0 ? high / 2 : high;
-			side = 1;
-		} else {
-			outside = part;
-			high = margin;
-			low = side < 0 ? low / 2 : low;
-			side = -1;
-		}
-	}
-	return inside;
-}
-
-/*
- * L, a and b are linear in the cube roots, and a grey of lightness L has three equal ones:
- * at constant L and hue the roots move in a straight line to L.
- */
-static void
-lose_chroma(const struct spec_gamut_map *map, double rgb[3])
-{
-	double root[3], lightness = 0, part = 0, at_grey, at_colour;
-
-	spec_matrix_apply(map->to_cones, rgb, root);
-	for (int i = 0; i < 3; i++) {
-		root[i] = cbrt(root[i]);
-		lightness += oklab_lightness[i] * root[i];
-	}
-	lightness = fmin(fmax(lightness, 0), 1);
-	reduce(map, root, lightness, 1, rgb);
-	at_colour = margin_of(rgb);
-	reduce(map, root, lightness, 0, rgb);
-	at_grey = margin_of(rgb);
-	if (at_grey > 0)
-		part = at_colour < 0 ? find_part(map, root, lightness, at_grey, at_colour)
-				     : 1;
-	reduce(map, root, lightness, part, rgb);
-	for (int c = 0; c < 3; c++)
-		rgb[c] = fmin(fmax(rgb[c], 0), 1);
-}
-
 void
 spec_gamut_row(const struct spec_gamut_map *map, float *const plane[3], size_t count)
 {
-	if (map->kind == SPEC_GAMUT_CLIP ||
-		(map->kind == SPEC_GAMUT_SCALE && map->most == 1 && map->chroma == 1))
-		return;
-	if (map->kind == SPEC_GAMUT_DESATURATE) {
+	switch (map->kind) {
+	case SPEC_GAMUT_CLIP:
+		break;
+	case SPEC_GAMUT_DESATURATE:
 		desaturate(map->luminance, plane[0], plane[1], plane[2], count);
-		return;
-	}
-	for (size_t i = 0; i < count; i++) {
-		double rgb[3] = {plane[0][i], plane[1][i], plane[2][i]};
-
-		if (map->kind == SPEC_GAMUT_SCALE)
-			scale(map, rgb);
-		else if (is_inside(rgb) || !isfinite(rgb[0] + rgb[1] + rgb[2]))
-			continue;
-		else
-			lose_chroma(map, rgb);
-		for (int c = 0; c < 3; c++)
-			plane[c][i] = (float)rgb[c];
+		break;
+	case SPEC_GAMUT_SCALE:
+		if (map->most != 1 || map->chroma != 1)
+			scale(map, plane[0], plane[1], plane[2], count);
+		break;
+	case SPEC_GAMUT_PERCEPTUAL:
+		spec_chroma_row(map->to_cones, map->from_cones, plane, count);
+		break;
 	}
 }

@@ -1,8 +1,10 @@
 /* Tone curves, gamut maps and dithering. */
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/vector.h"
 #include "colour/gamut.h"
 #include "colour/tone.h"
 #include "image/look.h"
@@ -242,6 +244,119 @@ test_perceptual(void **state)
 	free(rows);
 }
 
+/* libmvec's cube root beside the exact one. */
+SPEC_VECTORISED static void
+take_roots(const double *restrict from, size_t count, double *restrict root)
+{
+	for (size_t i = 0; i < count; i++)
+		root[i] = spec_vector_cbrt(from[i]);
+}
+
+static void
+test_cube_root(void **state)
+{
+	enum { MANY = 4000 };
+	static double from[MANY], root[MANY];
+	double worst = 0;
+
+	(void)state;
+	for (int scale = -40; scale <= 40; scale++) {
+		for (size_t i = 0; i < MANY; i++)
+			from[i] =
+				ldexp(i % 2 ? -1 - (double)i / MANY : 1 + (double)i / MANY,
+					scale);
+		take_roots(from, MANY, root);
+		for (size_t i = 0; i < MANY; i++) {
+			long double exact = cbrtl((long double)from[i]);
+
+			worst = fmax(worst, (double)fabsl(root[i] / exact - 1));
+		}
+	}
+	near(worst, 0, 4 * DBL_EPSILON, "the cube root");
+	from[0] = 0;
+	take_roots(from, 1, root);
+	assert_true(root[0] == 0);
+}
+
+/* How far the nearest component is from leaving 0 to 1, with a part of the roots' chroma. */
+static double
+margin_at(const struct spec_gamut_map *map, const double root[3], double grey, double part,
+	double rgb[3])
+{
+	for (int c = 0; c < 3; c++)
+		rgb[c] = pow(fabs(grey + part * (root[c] - grey)), 3) *
+			 (grey + part * (root[c] - grey) < 0 ? -1 : 1);
+	spec_matrix_apply(map->from_cones, rgb, rgb);
+	return fmin(
+		fmin(rgb[0], fmin(rgb[1], rgb[2])), 1 - fmax(rgb[0], fmax(rgb[1], rgb[2])));
+}
+
+/*
+ * The edge of the gamut by halving, beside what the rows have: 1e-9 is how near they come
+ * to it, and a float has 6e-8 of it.
+ */
+static void
+test_perceptual_edge(void **state)
+{
+	static const double lightness[3] = {.2104542553, .7936177850, -.0040720468};
+	struct spec_gamut_map map;
+	struct rows *rows = map_rows(&map, SPEC_GAMUT_PERCEPTUAL, "p3");
+	int reduced = 0;
+
+	(void)state;
+	for (size_t i = 0; i < PIXELS; i++) {
+		double rgb[3] = {
+			rows->before[0][i], rows->before[1][i], rows->before[2][i]};
+		double root[3], grey = 0, inside = 0, outside = 1;
+
+		if (fmin(rgb[0], fmin(rgb[1], rgb[2])) >= 0 &&
+			fmax(rgb[0], fmax(rgb[1], rgb[2])) <= 1)
+			continue;
+		spec_matrix_apply(map.to_cones, rgb, root);
+		for (int c = 0; c < 3; c++) {
+			root[c] = cbrt(root[c]);
+			grey += lightness[c] * root[c];
+		}
+		grey = fmin(fmax(grey, 0), 1);
+		for (int step = 0; step < 60; step++) {
+			double part = (inside + outside) / 2;
+
+			*(margin_at(&map, root, grey, part, rgb) >= 0 ? &inside
+								      : &outside) = part;
+		}
+		(void)margin_at(&map, root, grey, inside, rgb);
+		for (int c = 0; c < 3; c++)
+			near(rows->after[c][i], fmin(fmax(rgb[c], 0), 1), 1e-7, "edge");
+		reduced += inside > .01 && inside < .99;
+	}
+	assert_true(reduced > PIXELS / 4);
+	free(rows);
+}
+
+/* A pixel's colour does not depend on the pixels that are worked on beside it. */
+static void
+test_gamut_alone(void **state)
+{
+	static const enum spec_gamut kinds[] = {
+		SPEC_GAMUT_DESATURATE, SPEC_GAMUT_SCALE, SPEC_GAMUT_PERCEPTUAL};
+
+	(void)state;
+	for (size_t k = 0; k < COUNT(kinds); k++) {
+		struct spec_gamut_map map;
+		struct rows *rows = map_rows(&map, kinds[k], "srgb");
+
+		for (size_t i = 0; i < PIXELS; i++) {
+			float *const plane[3] = {rows->before[0] + i, rows->before[1] + i,
+				rows->before[2] + i};
+
+			spec_gamut_row(&map, plane, 1);
+			for (int c = 0; c < 3; c++)
+				near(*plane[c], rows->after[c][i], 1.2e-7, "alone");
+		}
+		free(rows);
+	}
+}
+
 static void
 test_gamut_rules(void **state)
 {
@@ -343,8 +458,10 @@ main(void)
 	const struct CMUnitTest tests[] = {cmocka_unit_test(test_tone_parse),
 		cmocka_unit_test(test_tone_curves), cmocka_unit_test(test_tone_row),
 		cmocka_unit_test(test_desaturate), cmocka_unit_test(test_scale),
-		cmocka_unit_test(test_perceptual), cmocka_unit_test(test_gamut_rules),
-		cmocka_unit_test(test_dither), cmocka_unit_test(test_meter)};
+		cmocka_unit_test(test_perceptual), cmocka_unit_test(test_cube_root),
+		cmocka_unit_test(test_perceptual_edge), cmocka_unit_test(test_gamut_alone),
+		cmocka_unit_test(test_gamut_rules), cmocka_unit_test(test_dither),
+		cmocka_unit_test(test_meter)};
 
 	return cmocka_run_group_tests(tests, NULL, NULL);
 }
