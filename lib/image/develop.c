@@ -1,10 +1,12 @@
 #include "image/develop.h"
 
 #include <math.h>
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/memory.h"
+#include "base/vector.h"
 #include "image/meter.h"
 #include "image/stream.h"
 
@@ -22,26 +24,27 @@ struct development {
 struct row {
 	long long nonfinite;
 	int first_x;
+	struct spec_meter_row measured; /* where there is a meter */
 };
 
-/*
- * v - v is 0 for a finite v and NaN for every other; the sum finds a whole row
- * finite without a branch per pixel.
- */
-static int
+/* Of a float that is not finite all bits of the exponent are set. */
+SPEC_VECTORISED static int
 all_finite(const float *linear, size_t count)
 {
-	float sum = 0;
+	const uint32_t exponent = 0x7f800000;
+	uint32_t bad = 0, bits;
 
-	for (size_t i = 0; i < count; i++)
-		sum += linear[i] - linear[i];
-	return sum == 0;
+	for (size_t i = 0; i < count; i++) {
+		memcpy(&bits, &linear[i], sizeof bits);
+		bad |= (bits & exponent) == exponent;
+	}
+	return !bad;
 }
 
 static void
 find_nonfinite(const float *const linear[3], size_t width, struct row *row)
 {
-	*row = (struct row){0, 0};
+	*row = (struct row){0};
 	if (all_finite(linear[0], 3 * width)) /* the three rows follow one another */
 		return;
 	for (size_t x = 0; x < width; x++) {
@@ -61,20 +64,18 @@ kernel(void *state, struct spec_stream_worker *worker, int line, struct spec_err
 	const float **plane = worker->scratch;
 	float *sums = (float *)(void *)(plane + development->rgb->terms);
 	float *const linear[3] = {sums, sums + width, sums + 2 * width};
+	struct row *row = (struct row *)(void *)worker->payload;
 	unsigned char *samples;
 
-	(void)error;
 	for (size_t i = 0; i < development->rgb->terms; i++)
 		plane[i] = spec_decoder_row(worker->decoder[0], development->y0 + line,
 			development->rgb->channel[i]);
 	spec_rgb_row(development->rgb, plane, width, linear[0], linear[1], linear[2]);
-	find_nonfinite(
-		(const float *const *)linear, width, (struct row *)(void *)worker->payload);
+	find_nonfinite((const float *const *)linear, width, row);
+	if (development->meter)
+		return spec_meter_take(development->meter, worker->number, sums, line,
+			&row->measured, error);
 	samples = worker->payload + sizeof(struct row);
-	if (development->meter) {
-		memcpy(samples, sums, 3 * width * sizeof *sums);
-		return SPEC_OK;
-	}
 	spec_finish_expose(&development->finish, linear, width);
 	spec_finish_encode(&development->finish, linear, width, line, samples);
 	return SPEC_OK;
@@ -97,11 +98,11 @@ deliver(void *state, const unsigned char *payload, int line, int count,
 			development->result->first_y = line + i;
 		}
 		development->result->nonfinite += row->nonfinite;
-		status = development->meter
-				 ? spec_meter_take(development->meter,
-					   (const float *)(const void *)(row + 1), error)
-				 : spec_picture_write(
-					   development->picture, row + 1, 1, error);
+		if (development->meter)
+			spec_meter_add(development->meter, &row->measured);
+		else
+			status =
+				spec_picture_write(development->picture, row + 1, 1, error);
 	}
 	return status;
 }
@@ -149,9 +150,9 @@ develop(struct development *development, const struct spec_look *look,
 	development->y0 = window->y0;
 	development->width = spec_window_width(window);
 	if (status == SPEC_OK && spec_meter_wanted(look)) {
-		bytes = sizeof(float);
+		bytes = 0; /* the meter keeps the samples */
 		status = spec_meter_open(&development->meter, &development->finish,
-			development->width, error);
+			development->width, settings->threads, error);
 	}
 	/* Rounded up, so that the next row's header is aligned. */
 	development->row_bytes = (3 * development->width * bytes + 7) / 8 * 8;

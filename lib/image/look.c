@@ -71,7 +71,7 @@ spec_finish_expose(const struct spec_finish *finish, float *const plane[3], size
  * Noise of a place, the same in every run: an integer hash of good avalanche (C. Wellons:
  * Prospecting for hash functions, 2018, lowbias32).
  */
-static uint32_t
+static inline uint32_t
 hash(uint32_t x)
 {
 	x ^= x >> 16;
@@ -85,22 +85,31 @@ hash(uint32_t x)
  * Noise of one step of 8 bits, even from 0 to 1, is added to the code that 16 bits have,
  * and the whole part kept: the mean of many is the code's own place between two steps.
  */
+SPEC_VECTORISED static void
+add_noise(const uint16_t *restrict word, size_t count, uint32_t seed,
+	unsigned char *restrict code)
+{
+	for (size_t i = 0; i < count; i++) {
+		uint32_t noise = hash(seed + (uint32_t)i) >> 16;
+
+		code[i] = (unsigned char)((word[i] + (noise * 257 >> 16)) / 257);
+	}
+}
+
 static void
 dither(const struct spec_encoder *encoder, const float *linear, size_t width, uint32_t seed,
 	unsigned char *out)
 {
 	uint16_t word[BLOCK];
+	unsigned char code[BLOCK];
 
 	for (size_t x0 = 0; x0 < width; x0 += BLOCK) {
 		size_t count = width - x0 < BLOCK ? width - x0 : BLOCK;
 
 		spec_encode16(encoder, linear + x0, count, word, 1);
-		for (size_t i = 0; i < count; i++) {
-			uint32_t noise = hash(seed + (uint32_t)(x0 + i)) >> 16;
-
-			out[3 * (x0 + i)] =
-				(unsigned char)((word[i] + (noise * 257 >> 16)) / 257);
-		}
+		add_noise(word, count, seed + (uint32_t)x0, code);
+		for (size_t i = 0; i < count; i++)
+			out[3 * (x0 + i)] = code[i];
 	}
 }
 

@@ -10,6 +10,7 @@
 #include "base/memory.h"
 #include "base/output.h"
 #include "base/parallel.h"
+#include "base/vector.h"
 
 #define MIDDLE_GREY .18 /* what the average becomes: Reinhard et al. 2002, section 3 */
 
@@ -17,7 +18,8 @@
 #define SHIFT 14
 #define BINS (1u << (31 - SHIFT))
 
-#define BLOCK_BYTES (1 << 20) /* of rows that a thread takes at once */
+#define BLOCK_BYTES (1 << 19) /* of rows that a thread takes at once: it stays in a cache */
+#define RUN 256               /* pixels whose luminance stays in the nearest cache */
 
 static char scratch_name[] = "a temporary file";
 
@@ -26,9 +28,11 @@ struct spec_meter {
 	struct spec_output scratch;
 	size_t width;
 	long long rows;
-	long long lit;  /* pixels with a finite luminance above 0 */
-	double logs;    /* the sum over them of the natural logarithm of luminance */
-	long long *bin; /* how many of them there are, by the bits of luminance */
+	struct spec_meter_row all;
+	int exposed; /* what is in the file has been exposed already */
+	int threads;
+	/* [threads]: how many lit pixels there are, by the bits of luminance; or null */
+	uint32_t **bin;
 };
 
 int
@@ -39,7 +43,7 @@ spec_meter_wanted(const struct spec_look *look)
 
 enum spec_status
 spec_meter_open(struct spec_meter **result, struct spec_finish *finish, size_t width,
-	struct spec_error *error)
+	int threads, struct spec_error *error)
 {
 	struct spec_meter *meter = spec_memory_new(1, sizeof *meter, "pictures", error);
 	enum spec_status status;
@@ -49,61 +53,139 @@ spec_meter_open(struct spec_meter **result, struct spec_finish *finish, size_t w
 		return SPEC_ENOMEM;
 	*meter = (struct spec_meter){.finish = finish,
 		.scratch = {.path = scratch_name, .fd = -1},
-		.width = width};
-	if (finish->look->metering == SPEC_METERING_PERCENTILE) {
-		meter->bin = spec_memory_new(BINS, sizeof *meter->bin, "pictures", error);
-		if (!meter->bin)
-			return SPEC_ENOMEM;
-	}
+		.width = width,
+		.all = {.most = 1, .chroma = 1},
+		.exposed = finish->look->metering == SPEC_METERING_NONE,
+		.threads = threads};
+	meter->bin = spec_memory_new((size_t)threads, sizeof *meter->bin, "threads", error);
+	if (!meter->bin)
+		return SPEC_ENOMEM;
 	status = spec_output_scratch(&meter->scratch.fd, error);
 	if (status != SPEC_OK)
 		meter->scratch.fd = -1;
 	return status;
 }
 
-static void
-measure(struct spec_meter *meter, const float *row)
+/* Luminance, or 0 where it is not above 0 or not finite. */
+SPEC_VECTORISED static void
+find_luminance(const double weight[3], const float *restrict r, const float *restrict g,
+	const float *restrict b, size_t count, double *restrict luminance)
 {
-	const double *weight = meter->finish->map.luminance;
-	const float *red = row, *green = red + meter->width, *blue = green + meter->width;
+	double red = weight[0], green = weight[1], blue = weight[2];
 
-	for (size_t x = 0; x < meter->width; x++) {
-		double y = weight[0] * red[x] + weight[1] * green[x] + weight[2] * blue[x];
-		float luminance = (float)y;
+	for (size_t i = 0; i < count; i++) {
+		double y = red * r[i] + green * g[i] + blue * b[i];
+		float rounded = (float)y;
+
+		luminance[i] = (rounded > 0) & (rounded - rounded == 0) ? y : 0;
+	}
+}
+
+SPEC_VECTORISED static void
+find_logarithms(const double *restrict luminance, size_t count, double *restrict logarithm)
+{
+	for (size_t i = 0; i < count; i++) {
+		double lit = luminance[i] > 0 ? luminance[i] : 1;
+
+		logarithm[i] = spec_vector_log(lit);
+	}
+}
+
+static void
+count_bins(const double *luminance, size_t count, uint32_t *bin)
+{
+	for (size_t i = 0; i < count; i++) {
+		float rounded = (float)luminance[i];
 		uint32_t bits;
 
-		if (!(luminance > 0) || !isfinite(luminance))
+		memcpy(&bits, &rounded, sizeof bits);
+		bin[bits >> SHIFT] += luminance[i] > 0;
+	}
+}
+
+static void
+measure(const struct spec_meter *meter, const float *row, uint32_t *bin,
+	struct spec_meter_row *measured)
+{
+	const float *red = row, *green = red + meter->width, *blue = green + meter->width;
+	double luminance[RUN], logarithm[RUN];
+
+	for (size_t x0 = 0; x0 < meter->width; x0 += RUN) {
+		size_t count = meter->width - x0 < RUN ? meter->width - x0 : RUN;
+
+		find_luminance(meter->finish->map.luminance, red + x0, green + x0,
+			blue + x0, count, luminance);
+		for (size_t i = 0; i < count; i++)
+			measured->lit += luminance[i] > 0;
+		if (bin) {
+			count_bins(luminance, count, bin);
 			continue;
-		meter->lit++;
-		if (meter->bin) {
-			memcpy(&bits, &luminance, sizeof bits);
-			meter->bin[bits >> SHIFT]++;
-		} else {
-			meter->logs += log(y);
 		}
+		find_logarithms(luminance, count, logarithm);
+		for (size_t i = 0; i < count; i++)
+			measured->logs += logarithm[i];
 	}
 }
 
 enum spec_status
-spec_meter_take(struct spec_meter *meter, const float *row, struct spec_error *error)
+spec_meter_take(struct spec_meter *meter, int worker, float *row, int y,
+	struct spec_meter_row *measured, struct spec_error *error)
 {
-	if (meter->finish->look->metering != SPEC_METERING_NONE)
-		measure(meter, row);
+	const struct spec_finish *finish = meter->finish;
+	size_t width = meter->width, bytes = 3 * width * sizeof *row;
+	float *const plane[3] = {row, row + width, row + 2 * width};
+
+	*measured = (struct spec_meter_row){.most = 1, .chroma = 1};
+	if (finish->look->metering == SPEC_METERING_PERCENTILE && !meter->bin[worker]) {
+		meter->bin[worker] =
+			spec_memory_new(BINS, sizeof **meter->bin, "pictures", error);
+		if (!meter->bin[worker])
+			return SPEC_ENOMEM;
+	}
+	if (!meter->exposed) {
+		measure(meter, row, meter->bin[worker], measured);
+	} else {
+		struct spec_gamut_map map = finish->map;
+
+		spec_finish_expose(finish, plane, width);
+		spec_gamut_measure(&map, (const float *const *)plane, width);
+		measured->most = map.most;
+		measured->chroma = map.chroma;
+	}
+	return spec_output_write_at(
+		&meter->scratch, row, bytes, (long long)y * (long long)bytes, error);
+}
+
+void
+spec_meter_add(struct spec_meter *meter, const struct spec_meter_row *measured)
+{
 	meter->rows++;
-	return spec_output_write(
-		&meter->scratch, row, 3 * meter->width * sizeof *row, error);
+	meter->all.lit += measured->lit;
+	meter->all.logs += measured->logs;
+	meter->all.most = fmax(meter->all.most, measured->most);
+	meter->all.chroma = fmin(meter->all.chroma, measured->chroma);
+}
+
+static double
+count_bin(const struct spec_meter *meter, uint32_t bin)
+{
+	double count = 0;
+
+	for (int i = 0; i < meter->threads; i++)
+		count += meter->bin[i] ? meter->bin[i][bin] : 0;
+	return count;
 }
 
 /* The middle of the bin that holds the percentile. */
 static double
 find_percentile(const struct spec_meter *meter, double percentile)
 {
-	double rank = meter->lit * percentile / 100, seen = 0;
+	double rank = meter->all.lit * percentile / 100, seen = count_bin(meter, 0);
 	uint32_t bin = 0, bits;
 	float luminance;
 
-	while (bin + 1 < BINS && seen + (double)meter->bin[bin] < rank)
-		seen += (double)meter->bin[bin++];
+	while (bin + 1 < BINS && seen < rank)
+		seen += count_bin(meter, ++bin);
 	bits = (bin << SHIFT) + (1u << (SHIFT - 1));
 	memcpy(&luminance, &bits, sizeof luminance);
 	return luminance;
@@ -114,11 +196,11 @@ find_gain(const struct spec_meter *meter)
 {
 	const struct spec_look *look = meter->finish->look;
 
-	if (look->metering == SPEC_METERING_NONE || meter->lit == 0)
+	if (look->metering == SPEC_METERING_NONE || meter->all.lit == 0)
 		return 1;
 	if (look->metering == SPEC_METERING_PERCENTILE)
 		return 1 / find_percentile(meter, look->percentile);
-	return MIDDLE_GREY / exp(meter->logs / (double)meter->lit);
+	return MIDDLE_GREY / exp(meter->all.logs / (double)meter->all.lit);
 }
 
 /* Blocks of rows that several threads take from the temporary file, in turns. */
@@ -161,7 +243,8 @@ work_on(const struct again *again, float *linear, unsigned char *samples, long l
 		float *row = linear + 3 * i * width;
 		float *const plane[3] = {row, row + width, row + 2 * width};
 
-		spec_finish_expose(finish, plane, width);
+		if (!again->meter->exposed)
+			spec_finish_expose(finish, plane, width);
 		if (again->picture)
 			spec_finish_encode(finish, plane, width, (int)first + (int)i,
 				samples + i * again->sample_bytes);
@@ -269,7 +352,9 @@ spec_meter_finish(struct spec_meter *meter, struct spec_picture *picture,
 	enum spec_status status = SPEC_OK;
 
 	meter->finish->gain = find_gain(meter);
-	if (meter->finish->look->gamut == SPEC_GAMUT_SCALE)
+	meter->finish->map.most = meter->all.most;
+	meter->finish->map.chroma = meter->all.chroma;
+	if (meter->finish->look->gamut == SPEC_GAMUT_SCALE && !meter->exposed)
 		status = read_again(meter, NULL, settings->threads, error);
 	if (status == SPEC_OK)
 		status = read_again(meter, picture, settings->threads, error);
@@ -283,6 +368,8 @@ spec_meter_close(struct spec_meter *meter)
 		return;
 	if (meter->scratch.fd >= 0)
 		(void)close(meter->scratch.fd);
+	for (int i = 0; meter->bin && i < meter->threads; i++)
+		free(meter->bin[i]);
 	free(meter->bin);
 	free(meter);
 }

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "base/vector.h"
 #include "image/encoder.h"
 
 #define BUFFER_BYTES (1 << 20) /* rows are gathered: few large writes */
@@ -38,15 +39,15 @@ open_ppm(struct spec_picture *picture, struct spec_error *error)
 	return SPEC_OK;
 }
 
-static void
-put_words(unsigned char *to, const unsigned char *from, size_t bytes)
+SPEC_VECTORISED static void
+put_words(unsigned char *restrict to, const unsigned char *restrict from, size_t words)
 {
-	for (size_t i = 0; i < bytes; i += 2) {
+	for (size_t i = 0; i < words; i++) {
 		uint16_t word;
 
-		memcpy(&word, from + i, 2);
-		to[i] = (unsigned char)(word >> 8);
-		to[i + 1] = (unsigned char)(word & 255);
+		memcpy(&word, from + 2 * i, sizeof word);
+		word = (uint16_t)(word << 8 | word >> 8);
+		memcpy(to + 2 * i, &word, sizeof word);
 	}
 }
 
@@ -66,7 +67,7 @@ write_ppm(struct spec_picture *picture, const void *rows, size_t count,
 		enum spec_status status = SPEC_OK;
 
 		if (wide)
-			put_words(state->buffer + state->used, byte, bytes);
+			put_words(state->buffer + state->used, byte, bytes / 2);
 		else
 			memcpy(state->buffer + state->used, byte, bytes);
 		state->used += bytes;

@@ -445,6 +445,12 @@ camera() {
       cmp one.$suffix more.$suffix
     done
   done
+  for look in '-e auto' '-e auto:70%' '--gamut scale -e 1' '--gamut scale -e auto:90% --dither' '--gamut perceptual -e 1'; do
+    # shellcheck disable=SC2086 # several words
+    for threads in 1 2 3; do spec2rgb $look -j $threads a.exr -o look$threads.ppm; done
+    cmp look1.ppm look2.ppm
+    cmp look1.ppm look3.ppm
+  done
 }
 
 # What cannot be shown
