@@ -228,7 +228,10 @@ open_any(struct spec_reader **result, const char *path,
 			&source, path, (size_t)settings->limits.header, error);
 		if (status != SPEC_OK)
 			return status;
-		status = find_format(&source, path, &format, error);
+		if (settings->reread && !source.seekable)
+			status = spec_source_spool(&source, error);
+		if (status == SPEC_OK)
+			status = find_format(&source, path, &format, error);
 		if (status != SPEC_OK)
 			spec_source_close(&source);
 	}

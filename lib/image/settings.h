@@ -29,6 +29,7 @@ struct spec_settings {
 	int history;
 	int quiet;
 	int progress; /* 1: wanted even when stderr is no terminal */
+	int reread;   /* images are read more than once: a pipe becomes a temporary file */
 	/* Called now and then, from one thread at a time, with the lines done; may be null. */
 	void (*show)(void *show_state, int done, int total);
 	void *show_state;

@@ -1,0 +1,76 @@
+/*
+ * Levels of detail: a picture from fewer bands than the image has, chosen by the user or by
+ * how far it may be from the picture of all bands.
+ */
+#ifndef SPEC_IMAGE_LEVEL_H
+#define SPEC_IMAGE_LEVEL_H
+
+#include "base/error.h"
+#include "image/reader.h"
+#include "image/rgb.h"
+#include "image/settings.h"
+
+enum spec_level_kind {
+	SPEC_LEVEL_ALL,  /* all bands */
+	SPEC_LEVEL_STEP, /* bands a step apart, as spec_coarse_stride and _repeat have it */
+	SPEC_LEVEL_HALVED, /* a level, as spec_coarse_halve and _interpolate have it */
+	SPEC_LEVEL_BOUNDED /* the lowest level whose difference stays within a bound */
+};
+
+enum spec_level_formula {
+	SPEC_LEVEL_DE76,   /* DeltaE*ab */
+	SPEC_LEVEL_DE2000, /* CIEDE2000 */
+	SPEC_LEVEL_FORMULAS
+};
+
+struct spec_level {
+	enum spec_level_kind kind;
+	double step_nm;                  /* STEP */
+	unsigned number;                 /* HALVED */
+	enum spec_level_formula formula; /* BOUNDED, as the next */
+	int of_mean;                     /* the mean over the pixels is bounded, not each */
+	double bound;                    /* at least 0 */
+};
+
+/*
+ * A level as users write it: its number, or "METRIC:BOUND", METRIC one of de76, de2000 (the
+ * mean over all pixels), de76-max, de2000-max (every pixel). SPEC_EUSAGE: another text.
+ */
+enum spec_status spec_level_parse(
+	const char *text, struct spec_level *level, struct spec_error *error);
+
+/* "10nm": a step. Errors: those of spec_number_parse_length. */
+enum spec_status spec_level_parse_step(
+	const char *text, struct spec_level *level, struct spec_error *error);
+
+/* What was chosen, and how far it is from all bands. */
+struct spec_level_report {
+	int number, finest;  /* the level, and the one with all bands; -1 for a step */
+	size_t bands, of;    /* that are kept, of how many */
+	long long pixels;    /* that were compared */
+	long long nonfinite; /* that were not: of all bands or of those kept not finite */
+	struct spec_level_difference {
+		double mean, rms, most;
+		int x, y; /* of the first with the most, in the data window */
+	} difference[SPEC_LEVEL_FORMULAS];
+};
+
+/*
+ * Takes bands out of a plan, by the level. Where the level is bounded, or a report is wanted
+ * (not null), all lines of the image are read and compared, and the reader must have been
+ * opened with settings->reread.
+ * Given:    seen  the plan of the same image, observer, light and exposure in X, Y and Z;
+ *                 read only to compare
+ * Compared: CIELAB beside the white of seen, before anything that comes after the sums. At
+ *           a bound of every pixel no difference is above it, and a level is no choice where
+ *           a pixel that is not finite with all bands becomes finite. Bounded levels always
+ *           meet their bound: the finest has all bands. The same bits for any threads.
+ * Errors:   those of spec_coarse_stride, with the image's name, and of reading; rgb is then
+ *           as it was
+ */
+enum spec_status spec_level_apply(const struct spec_level *level,
+	struct spec_reader *reader, const struct spec_rgb *seen, struct spec_rgb *rgb,
+	struct spec_level_report *report, const struct spec_settings *settings,
+	struct spec_error *error);
+
+#endif
