@@ -8,6 +8,7 @@
 #include "cli/progress.h"
 #include "colour/observer.h"
 #include "image/develop.h"
+#include "image/level.h"
 #include "image/separate.h"
 #include "spectrum/lookup.h"
 
@@ -32,6 +33,12 @@ static const struct cli_option options[] = {
 	{0, "gamut", "clip|desaturate|scale|perceptual",
 		"what becomes of colours outside the space (default: clip)"},
 	{0, "dither", NULL, "add noise before rounding to 8 bits"},
+	{0, "step", "NM", "use bands this far apart, each for those up to the next"},
+	{0, "lod", "N|METRIC:X",
+		"use 2^N + 1 bands and straight lines between them, or the fewest\n"
+		"whose difference from all bands is X or less; METRIC is de76,\n"
+		"de76-max, de2000 or de2000-max"},
+	{0, "error", NULL, "with --step or --lod, print the difference from all bands"},
 	{'f', "format", "SUFFIX",
 		"of the output, such as ppm (default: the suffix of -o, else png)"},
 	{0, "bits", "8|16|32", "bits per sample (default: as the format has them)"},
@@ -57,6 +64,9 @@ struct job {
 	const struct spec_transfer *transfer;
 	struct spec_look look;
 	double exposure;
+	struct spec_level level;
+	const char *level_option; /* that gave it, or null */
+	int error;                /* of the level is printed */
 	int bits;
 	struct spec_settings settings;
 };
@@ -69,6 +79,17 @@ take_exposure(struct job *job, const char *value, struct spec_error *error)
 	if (strncmp(value, "auto", 4) == 0)
 		return spec_look_meter(&job->look, value, error);
 	return spec_number_parse(value, -100, 100, "the exposure", &job->exposure, error);
+}
+
+static enum spec_status
+take_level(struct job *job, const char *name, const char *value, struct spec_error *error)
+{
+	if (job->level_option && strcmp(job->level_option, name) != 0)
+		return spec_error_set(
+			error, SPEC_EUSAGE, "--step and --lod do not go together");
+	job->level_option = name;
+	return strcmp(name, "step") == 0 ? spec_level_parse_step(value, &job->level, error)
+					 : spec_level_parse(value, &job->level, error);
 }
 
 static enum spec_status
@@ -99,6 +120,10 @@ take_option(void *state, const char *name, const char *value, struct spec_error 
 		status = spec_gamut_find(value, &job->look.gamut, error);
 	} else if (strcmp(name, "dither") == 0) {
 		job->look.dither = 1;
+	} else if (strcmp(name, "step") == 0 || strcmp(name, "lod") == 0) {
+		status = take_level(job, name, value, error);
+	} else if (strcmp(name, "error") == 0) {
+		job->error = 1;
 	} else if (strcmp(name, "format") == 0) {
 		job->format = value;
 	} else if (strcmp(name, "model") == 0) {
@@ -129,20 +154,26 @@ parse(struct cli *cli, struct job *job)
 				  job->look.tone.kind || job->look.dither))
 		cli_usage(cli, "--exposure auto, --tone, --gamut and --dither are for "
 			       "pictures, not for --model");
+	if (job->error && job->level.kind == SPEC_LEVEL_ALL)
+		cli_usage(cli, "--error is of --step or --lod");
+	job->settings.reread = job->error || job->level.kind == SPEC_LEVEL_BOUNDED;
+	if (job->settings.reread && job->look.metering != SPEC_METERING_NONE)
+		cli_usage(
+			cli, "--lod METRIC:X and --error need a given exposure, not auto");
 	job->look.space = &job->space;
 	if (job->transfer)
 		job->space.transfer = job->transfer;
 }
 
-/* The sums that the options ask for. */
+/* The sums that the options ask for, in a space. */
 static enum spec_status
-plan(const struct job *job, const struct spec_reader *reader, struct spec_rgb *rgb,
-	struct spec_error *error)
+plan(const struct job *job, const struct spec_reader *reader,
+	const struct spec_space *space, struct spec_rgb *rgb, struct spec_error *error)
 {
 	struct spec_curve observer = {0}, illuminant = {0};
 	struct spec_rgb_setup setup = {.observer = &observer,
 		.illuminant = &illuminant,
-		.space = &job->space,
+		.space = space,
 		.exposure = job->exposure};
 	enum spec_status status = spec_observer_load(job->observer, &observer, error);
 
@@ -158,6 +189,47 @@ plan(const struct job *job, const struct spec_reader *reader, struct spec_rgb *r
 	spec_curve_free(&observer);
 	spec_curve_free(&illuminant);
 	return status;
+}
+
+/* Leaves bands out as the options ask for; *report: what --error prints. */
+static enum spec_status
+leave_out(const struct job *job, struct spec_reader *reader, struct spec_rgb *rgb,
+	struct spec_level_report *report, struct spec_error *error)
+{
+	struct spec_rgb seen = {0};
+	enum spec_status status = SPEC_OK;
+
+	if (job->settings.reread)
+		status = plan(job, reader, spec_space_find("xyz", error), &seen, error);
+	if (status == SPEC_OK)
+		status = spec_level_apply(&job->level, reader, &seen, rgb,
+			job->error ? report : NULL, &job->settings, error);
+	spec_rgb_free(&seen);
+	return status;
+}
+
+static void
+print_error(const struct spec_level_report *report)
+{
+	static const char *const name[SPEC_LEVEL_FORMULAS] = {
+		[SPEC_LEVEL_DE76] = "de76", [SPEC_LEVEL_DE2000] = "de2000"};
+
+	if (report->number >= 0)
+		fprintf(stderr, "level      %d of %d\n", report->number, report->finest);
+	fprintf(stderr, "bands      %zu of %zu\n", report->bands, report->of);
+	for (size_t i = 0; i < SPEC_LEVEL_FORMULAS; i++) {
+		const struct spec_level_difference *difference = &report->difference[i];
+		char rms[16], most[16];
+
+		snprintf(rms, sizeof rms, "%s-rms", name[i]);
+		snprintf(most, sizeof most, "%s-max", name[i]);
+		fprintf(stderr, "%-10s %.6g\n", name[i], difference->mean);
+		fprintf(stderr, "%-10s %.6g\n", rms, difference->rms);
+		fprintf(stderr, "%-10s %.6g at %d,%d\n", most, difference->most,
+			difference->x, difference->y);
+	}
+	if (report->nonfinite > 0)
+		fprintf(stderr, "nonfinite  %lld\n", report->nonfinite);
 }
 
 static void
@@ -221,6 +293,7 @@ main(int argc, char **argv)
 	struct spec_error error = {0};
 	struct spec_reader *reader = NULL;
 	struct spec_rgb rgb = {0};
+	struct spec_level_report report = {0};
 	struct spec_develop seen = {0};
 	struct cli_progress progress;
 	enum spec_status status;
@@ -234,7 +307,11 @@ main(int argc, char **argv)
 
 	status = spec_reader_open(&reader, job.input, &job.settings, &error);
 	cli_check(&cli, status, &error);
-	status = plan(&job, reader, &rgb, &error);
+	status = plan(&job, reader, &job.space, &rgb, &error);
+	cli_check(&cli, status, &error);
+	status = leave_out(&job, reader, &rgb, &report, &error);
+	if (status != SPEC_OK)
+		cli_progress_end(&progress);
 	cli_check(&cli, status, &error);
 
 	status = job.model ? spec_separate_run(&seen, reader, &rgb, job.model,
@@ -243,6 +320,8 @@ main(int argc, char **argv)
 	cli_progress_end(&progress);
 	cli_check(&cli, status, &error);
 	warn(&cli, &job, spec_reader_name(reader), &rgb, &seen);
+	if (job.error)
+		print_error(&report);
 	spec_rgb_free(&rgb);
 	spec_reader_close(reader);
 	return 0;
