@@ -64,9 +64,11 @@ spec_place_parse(const char *text, struct spec_place *place, struct spec_error *
 	if (status != SPEC_OK)
 		return status;
 	status = places->parse(spelt, place, &cause);
-	if (status == SPEC_EUSAGE && spec_spelling_join(spelt) &&
-		places->parse(spelt, place, &(struct spec_error){0}) == SPEC_OK)
-		status = SPEC_OK;
+	if (status == SPEC_EUSAGE && spec_spelling_join(spelt))
+		status = places->parse(spelt, place, &cause);
+	if (status != SPEC_OK && spec_spelling_is_half(spelt))
+		return spec_error_set(error, SPEC_EUSAGE,
+			"'%s' is half a place: a latitude and a longitude make one", text);
 	if (status != SPEC_OK)
 		return refuse(text, &cause, error);
 	status = spec_place_check(place, error);

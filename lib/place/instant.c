@@ -184,9 +184,9 @@ take_utc(double day, double minutes, double second, struct spec_instant *instant
 	if (status < 0)
 		return spec_error_set(
 			error, SPEC_EUSAGE, "the clock does not read such a time");
-	instant->leap = status == 0   ? SPEC_LEAP_KNOWN
-			: year < 1960 ? SPEC_LEAP_BEFORE
-				      : SPEC_LEAP_AFTER;
+	instant->leap = eraDat(year, month, date, 0, &fraction) == 0 ? SPEC_LEAP_KNOWN
+			: year < 1960                                ? SPEC_LEAP_BEFORE
+								     : SPEC_LEAP_AFTER;
 	return SPEC_OK;
 }
 

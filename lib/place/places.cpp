@@ -9,6 +9,7 @@
 #include <GeographicLib/Geocentric.hpp>
 #include <GeographicLib/Geodesic.hpp>
 #include <GeographicLib/LocalCartesian.hpp>
+#include <GeographicLib/Math.hpp>
 
 extern "C" {
 #include "place/places.h"
@@ -21,6 +22,7 @@ using GeographicLib::Geocentric;
 using GeographicLib::GeoCoords;
 using GeographicLib::Geodesic;
 using GeographicLib::LocalCartesian;
+using GeographicLib::Math;
 
 /* Runs f; whatever it throws comes back as a status. */
 template <typename F>
@@ -60,7 +62,7 @@ parse(const char *text, struct spec_place *place, struct spec_error *error)
 		const GeoCoords read{std::string(text)};
 
 		place->latitude_deg = read.Latitude();
-		place->longitude_deg = read.Longitude();
+		place->longitude_deg = Math::AngNormalize(read.Longitude());
 	});
 }
 
@@ -74,7 +76,7 @@ format(const struct spec_place *place, enum spec_place_form form, char *written,
 
 		switch (form) {
 		case SPEC_PLACE_DMS:
-			text = at.DMSRepresentation(2);
+			text = at.DMSRepresentation(1);
 			break;
 		case SPEC_PLACE_UTM:
 			text = at.UTMUPSRepresentation(0);

@@ -151,3 +151,9 @@ spec_spelling_join(char spelt[SPEC_SPELLING_LONGEST])
 	}
 	return joined;
 }
+
+int
+spec_spelling_is_half(const char *spelt)
+{
+	return spelt[strspn(spelt, "0123456789.+-:")] == '\0';
+}

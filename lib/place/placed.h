@@ -1,0 +1,34 @@
+/*
+ * Where and when an image was taken, by OpenEXR's standard attributes: longitude, latitude
+ * and altitude (float; degrees east and north, metres), capDate (the local time to the
+ * second, "2003:10:17 12:30:30") and utcOffset (float, seconds: UTC = local time + it, so
+ * that zones east of Greenwich have negative ones).
+ */
+#ifndef SPEC_PLACE_PLACED_H
+#define SPEC_PLACE_PLACED_H
+
+#include "base/error.h"
+#include "image/image.h"
+#include "place/coordinates.h"
+#include "place/instant.h"
+
+/*
+ * Both of an image; an altitude that is missing is 0. name: the file, for messages.
+ * SPEC_EUSAGE: the image does not say where or when; SPEC_EFORMAT: what it says is none;
+ * SPEC_ERANGE.
+ */
+enum spec_status spec_placed_of_image(const struct spec_image *image, const char *name,
+	struct spec_place *place, struct spec_instant *instant, struct spec_error *error);
+
+/* Those of the header of a file, or of standard input where path is "-". */
+enum spec_status spec_placed_of_file(const char *path, struct spec_place *place,
+	struct spec_instant *instant, struct spec_error *error);
+
+/*
+ * Sets the attributes, those of the place or the instant that are not null; an altitude of 0
+ * leaves none. The instant is rounded to seconds. SPEC_ENOMEM.
+ */
+enum spec_status spec_placed_set(struct spec_image *image, const struct spec_place *place,
+	const struct spec_instant *instant, struct spec_error *error);
+
+#endif
