@@ -181,7 +181,7 @@ $(TABLE): $(TABLEPARTS) $(BUILD)/flags | $(BUILD)/make/sigmoids $(DATA)
 	$(QUIET)SPECTRA_PATH= $(BUILD)/make/sigmoids $@ $(if $(SAN),32)
 
 # What traces rays alone needs Embree, which costs every other program's start.
-TRACERS = bin/specrender $(addprefix tests/,render material light sampler world)
+TRACERS = bin/specrender $(addprefix tests/,render material light sampler world outdoors)
 $(TRACERS:%=$(BUILD)/%): LDLIBS += -lembree3
 
 LINK = $(QUIET)$(CC) $(ALLLDFLAGS) -o $@ $^ $(LDLIBS)

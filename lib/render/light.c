@@ -7,6 +7,7 @@
 #include "base/memory.h"
 #include "base/vector.h"
 #include "render/area.h"
+#include "render/daylight.h"
 #include "render/surroundings.h"
 #include "render/through.h"
 
@@ -30,6 +31,7 @@ struct spec_lights {
 	size_t *of_shape;    /* [shapes] the emitter, or SPEC_SCENE_NONE */
 	size_t surroundings; /* the emitter of the infinite light, or SPEC_SCENE_NONE */
 	struct spec_surroundings picture; /* of it, if it has one */
+	struct spec_daylight daylight;    /* of it, if it is that */
 	double world_radius;
 };
 
@@ -37,6 +39,13 @@ static struct spec_vector
 vector_of(const double v[3])
 {
 	return (struct spec_vector){v[0], v[1], v[2]};
+}
+
+/* Whether the infinite light is another one from each direction; its value is a scale then. */
+static int
+has_picture(const struct spec_lights *lights)
+{
+	return lights->picture.pixel || lights->daylight.bands > 0;
 }
 
 /* Radiant power, up to a factor that all lights share. */
@@ -52,9 +61,12 @@ power_of(const struct spec_lights *lights, const struct emitter *emitter)
 		return 4 * PI * mean;
 	if (emitter->kind == SPEC_SCENE_DISTANT)
 		return PI * square * mean;
+	if (emitter->kind == SPEC_SCENE_INFINITE && lights->picture.pixel)
+		mean *= lights->picture.mean;
+	else if (emitter->kind == SPEC_SCENE_INFINITE && has_picture(lights))
+		mean *= lights->daylight.mean;
 	if (emitter->kind == SPEC_SCENE_INFINITE)
-		return 4 * PI * PI * square * mean *
-		       (lights->picture.pixel ? lights->picture.mean : 1);
+		return 4 * PI * PI * square * mean;
 	return emitter->area.area * PI * mean * (light->twosided ? 2 : 1);
 }
 
@@ -112,6 +124,18 @@ read_picture(struct spec_lights *lights, const struct spec_scene_light *light,
 }
 
 static enum spec_status
+make_daylight(struct spec_lights *lights, const struct spec_scene_light *light,
+	const struct spec_bands_grid *bands, struct spec_error *error)
+{
+	enum spec_status status =
+		spec_daylight_make(&lights->daylight, light->daylight, bands, error);
+
+	if (status != SPEC_OK)
+		spec_scene_prefix(lights->scene, &light->place, error);
+	return status;
+}
+
+static enum spec_status
 add_lights(struct spec_lights *lights, const struct spec_bands_grid *bands,
 	const struct spec_settings *settings, struct spec_error *error)
 {
@@ -134,6 +158,8 @@ add_lights(struct spec_lights *lights, const struct spec_bands_grid *bands,
 			lights->surroundings = lights->emitters;
 		if (light->picture)
 			status = read_picture(lights, light, bands, settings, error);
+		if (light->daylight)
+			status = make_daylight(lights, light, bands, error);
 		if (status == SPEC_OK)
 			status = add_emitter(lights, bands, i, SPEC_SCENE_NONE, error);
 	}
@@ -218,6 +244,7 @@ spec_lights_free(struct spec_lights *lights)
 	free(lights->emitter);
 	free(lights->of_shape);
 	spec_surroundings_free(&lights->picture);
+	spec_daylight_free(&lights->daylight);
 	free(lights);
 }
 
@@ -254,7 +281,7 @@ sample_shape(const struct spec_lights *lights, const struct emitter *emitter,
 
 static int
 sample_surroundings(const struct spec_lights *lights, const struct emitter *emitter,
-	const double pair[2], struct spec_light_sample *sample)
+	const double pair[2], double number, struct spec_light_sample *sample)
 {
 	const struct spec_scene_light *light = &lights->scene->light[emitter->light];
 	double z = 1 - 2 * pair[0], r = sqrt(fmax(0, 1 - z * z)), angle = 2 * PI * pair[1];
@@ -266,6 +293,9 @@ sample_surroundings(const struct spec_lights *lights, const struct emitter *emit
 		sample->density = spec_surroundings_sample(&lights->picture, pair, &local);
 		sample->direction =
 			spec_vector_unit(spec_through_direction(light->world.m, local));
+	} else if (has_picture(lights)) {
+		sample->density = spec_daylight_sample(
+			&lights->daylight, pair, number, &sample->direction);
 	}
 	sample->distance = INFINITY;
 	return sample->density > 0;
@@ -346,9 +376,9 @@ spec_lights_sample(const struct spec_lights *lights, struct spec_vector point,
 		return 1;
 	}
 	if (emitter->kind == SPEC_SCENE_INFINITE) {
-		if (!sample_surroundings(lights, emitter, pair, sample))
+		if (!sample_surroundings(lights, emitter, pair, number, sample))
 			return 0;
-		if (lights->picture.pixel) {
+		if (has_picture(lights)) {
 			memset(sample->radiance.room, 0, lights->bands * sizeof(float));
 			spec_lights_add_surroundings(
 				lights, sample->direction, NULL, 1, sample->radiance.room);
@@ -415,6 +445,10 @@ spec_lights_add_surroundings(const struct spec_lights *lights, struct spec_vecto
 		spec_surroundings_add(&lights->picture, local,
 			factor ? factor : emitter->value,
 			factor ? weight * emitter->value[0] : weight, radiance);
+	} else if (has_picture(lights)) {
+		spec_daylight_add(&lights->daylight, direction,
+			factor ? factor : emitter->value,
+			factor ? weight * emitter->value[0] : weight, radiance);
 	} else if (factor) {
 		add_product(radiance, factor, emitter->value, (float)weight, lights->bands);
 	} else {
@@ -439,5 +473,8 @@ spec_lights_surroundings_density(
 						 spec_vector_unit(spec_through_direction(
 							 light->world.inverse, direction)));
 	}
+	if (has_picture(lights))
+		return emitter->chance *
+		       spec_daylight_density(&lights->daylight, direction);
 	return emitter->chance / (4 * PI);
 }

@@ -232,6 +232,17 @@ share_out(struct spec_surroundings *s, struct spec_error *error)
 	return SPEC_OK;
 }
 
+static enum spec_status
+make_room(struct spec_surroundings *s, struct spec_error *error)
+{
+	s->pixel = spec_memory_new(
+		s->width * s->height, s->bands * sizeof *s->pixel, "pixels", error);
+	s->row = spec_memory_new(s->height + 1, sizeof *s->row, "lines", error);
+	s->column = spec_memory_new(
+		s->height * (s->width + 1), sizeof *s->column, "pixels", error);
+	return s->pixel && s->row && s->column ? SPEC_OK : SPEC_ENOMEM;
+}
+
 enum spec_status
 spec_surroundings_read(struct spec_surroundings *s, const char *path,
 	const struct spec_bands_grid *bands, const struct spec_settings *settings,
@@ -248,12 +259,7 @@ spec_surroundings_read(struct spec_surroundings *s, const char *path,
 	if (status == SPEC_OK) {
 		s->width = spec_window_width(&spec_reader_image(reader)->data);
 		s->height = spec_window_height(&spec_reader_image(reader)->data);
-		s->pixel = spec_memory_new(
-			s->width * s->height, s->bands * sizeof *s->pixel, "pixels", error);
-		s->row = spec_memory_new(s->height + 1, sizeof *s->row, "lines", error);
-		s->column = spec_memory_new(
-			s->height * (s->width + 1), sizeof *s->column, "pixels", error);
-		status = s->pixel && s->row && s->column ? SPEC_OK : SPEC_ENOMEM;
+		status = make_room(s, error);
 	}
 	if (status == SPEC_OK)
 		status = read_lines(s, reader, bands, error);
@@ -262,6 +268,34 @@ spec_surroundings_read(struct spec_surroundings *s, const char *path,
 	if (status != SPEC_OK)
 		spec_surroundings_free(s);
 	spec_reader_close(reader);
+	return status;
+}
+
+static struct spec_vector
+direction_to(const struct spec_surroundings *s, double x, double y)
+{
+	double polar = PI * y / (double)s->height, azimuth = 2 * PI * x / (double)s->width;
+
+	return (struct spec_vector){
+		sin(polar) * cos(azimuth), sin(polar) * sin(azimuth), cos(polar)};
+}
+
+enum spec_status
+spec_surroundings_plan(struct spec_surroundings *s, size_t height,
+	spec_surroundings_radiance *radiance, const void *state, struct spec_error *error)
+{
+	enum spec_status status;
+
+	*s = (struct spec_surroundings){.bands = 1, .width = 2 * height, .height = height};
+	status = make_room(s, error);
+	for (size_t y = 0; y < s->height && status == SPEC_OK; y++)
+		for (size_t x = 0; x < s->width; x++)
+			s->pixel[y * s->width + x] = (float)radiance(
+				state, direction_to(s, (double)x + 0.5, (double)y + 0.5));
+	if (status == SPEC_OK)
+		status = share_out(s, error);
+	if (status != SPEC_OK)
+		spec_surroundings_free(s);
 	return status;
 }
 
@@ -355,15 +389,12 @@ double
 spec_surroundings_sample(const struct spec_surroundings *s, const double pair[2],
 	struct spec_vector *direction)
 {
-	double px, py, polar, azimuth;
+	double px, py;
 	size_t y = find_share(s->row, s->height, pair[1], &py);
 	size_t x = find_share(s->column + y * (s->width + 1), s->width, pair[0], &px);
 
-	polar = PI * ((double)y + py) / (double)s->height;
-	azimuth = 2 * PI * ((double)x + px) / (double)s->width;
-	*direction = (struct spec_vector){
-		sin(polar) * cos(azimuth), sin(polar) * sin(azimuth), cos(polar)};
-	return density_at(s, x, y, sin(polar));
+	*direction = direction_to(s, (double)x + px, (double)y + py);
+	return density_at(s, x, y, sin(PI * ((double)y + py) / (double)s->height));
 }
 
 double

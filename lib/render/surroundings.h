@@ -31,6 +31,14 @@ enum spec_status spec_surroundings_read(struct spec_surroundings *surroundings,
 	const struct spec_settings *settings, struct spec_error *error);
 void spec_surroundings_free(struct spec_surroundings *surroundings);
 
+/* What a direction of the light's own space sends, 0 or more. */
+typedef double spec_surroundings_radiance(const void *state, struct spec_vector direction);
+
+/* Surroundings of one band, as a function has them at the pixels' middles. SPEC_ENOMEM. */
+enum spec_status spec_surroundings_plan(struct spec_surroundings *surroundings,
+	size_t height, spec_surroundings_radiance *radiance, const void *state,
+	struct spec_error *error);
+
 /* Adds the radiance in a direction of the light's own space, times factor[bands] and weight. */
 void spec_surroundings_add(const struct spec_surroundings *surroundings,
 	struct spec_vector direction, const float *factor, double weight, float *radiance);

@@ -4,9 +4,12 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "scene/outdoors.h"
 #include "scene/parsing.h"
 #include "scene/paths.h"
 #include "scene/spectra.h"
+
+#define DAYLIGHT -1 /* a sort of infinite light */
 
 static const char absolute[] =
 	"it is photometric; give the light's spectrum absolute values, and a scale";
@@ -22,14 +25,18 @@ static const struct spec_expected distant[] = {SPEC_TAKES("L", SPEC_ANY_SPECTRUM
 static const struct spec_expected infinite[] = {SPEC_TAKES("L", SPEC_ANY_SPECTRUM),
 	SPEC_TAKES("filename", SPEC_STRING), SPEC_REFUSES("portal", NULL), EVERY_LIGHT,
 	{0}};
+static const struct spec_expected daylight[] = {SPEC_TAKES("place", SPEC_STRING),
+	SPEC_TAKES("time", SPEC_STRING), SPEC_TAKES("turbidity", SPEC_FLOAT),
+	SPEC_TAKES("albedo", SPEC_FLOAT), SPEC_TAKES("up", SPEC_VECTOR3),
+	SPEC_TAKES("north", SPEC_VECTOR3), SPEC_TAKES("sun", SPEC_BOOL), EVERY_LIGHT, {0}};
 static const struct spec_expected diffuse[] = {SPEC_TAKES("L", SPEC_ANY_SPECTRUM),
 	SPEC_TAKES("twosided", SPEC_BOOL), SPEC_REFUSES("filename", NULL), EVERY_LIGHT,
 	{0}};
 
 const struct spec_parsing_sort spec_parser_lights[] = {{"point", point, SPEC_SCENE_POINT},
 	{"distant", distant, SPEC_SCENE_DISTANT},
-	{"infinite", infinite, SPEC_SCENE_INFINITE}, {"spot", NULL, 0},
-	{"goniometric", NULL, 0}, {"projection", NULL, 0}, {0}};
+	{"infinite", infinite, SPEC_SCENE_INFINITE}, {"daylight", daylight, DAYLIGHT},
+	{"spot", NULL, 0}, {"goniometric", NULL, 0}, {"projection", NULL, 0}, {0}};
 const struct spec_parsing_sort spec_parser_area_lights[] = {
 	{"diffuse", diffuse, SPEC_SCENE_AREA}, {0}};
 
@@ -119,7 +126,7 @@ read_infinite(const struct spec_arguments *arguments, struct spec_scene_light *l
 }
 
 static enum spec_status
-read_light(const struct spec_arguments *arguments, struct spec_scene_light *light)
+read_light(const struct spec_arguments *arguments, int sort, struct spec_scene_light *light)
 {
 	enum spec_status status =
 		spec_arguments_number(arguments, "scale", 0, DBL_MAX, &light->scale);
@@ -135,7 +142,8 @@ read_light(const struct spec_arguments *arguments, struct spec_scene_light *ligh
 	case SPEC_SCENE_DISTANT:
 		return read_distant(arguments, light);
 	case SPEC_SCENE_INFINITE:
-		return read_infinite(arguments, light);
+		return sort == DAYLIGHT ? spec_outdoors_daylight(arguments, light)
+					: read_infinite(arguments, light);
 	case SPEC_SCENE_AREA:
 		status = read_spectrum(arguments, "L", light);
 		return status == SPEC_OK ? spec_arguments_flag(
@@ -161,8 +169,9 @@ take(struct spec_parser *parser, const struct spec_statement *statement,
 	status = spec_arguments_check(&arguments, sort->expected);
 	if (status != SPEC_OK)
 		return status;
-	light = add(parser, statement, sort->number);
-	return light ? read_light(&arguments, light) : SPEC_ENOMEM;
+	light = add(parser, statement,
+		sort->number == DAYLIGHT ? SPEC_SCENE_INFINITE : sort->number);
+	return light ? read_light(&arguments, sort->number, light) : SPEC_ENOMEM;
 }
 
 enum spec_status

@@ -47,6 +47,7 @@ free_light(struct spec_scene_light *light)
 {
 	spec_scene_spectrum_free(&light->spectrum);
 	free(light->picture);
+	free(light->daylight);
 }
 
 void

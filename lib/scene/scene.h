@@ -10,6 +10,7 @@
 #include <stdint.h>
 
 #include "base/error.h"
+#include "place/clearsky.h"
 #include "spectrum/curve.h"
 #include "spectrum/spectrum.h"
 
@@ -88,14 +89,24 @@ enum spec_scene_light_kind {
 	SPEC_SCENE_AREA /* radiance of the shapes that carry it, on the normals' side */
 };
 
+/* The sun and a clear sky, somewhere and at some time. */
+struct spec_scene_daylight {
+	struct spec_clearsky_sun sun;
+	struct spec_atmosphere atmosphere;
+	int has_sun; /* else the sky alone */
+	double east[3], north[3],
+		up[3]; /* in world space: unit vectors across each other */
+};
+
 struct spec_scene_light {
 	enum spec_scene_light_kind kind;
 	struct spec_scene_spectrum spectrum;
 	double scale;
-	double from[3], to[3];       /* in world space */
-	struct spec_transform world; /* infinite: world from light */
-	char *picture;               /* infinite: a file's path, or null */
-	int twosided;                /* area */
+	double from[3], to[3];                /* in world space */
+	struct spec_transform world;          /* infinite: world from light */
+	char *picture;                        /* infinite: a file's path, or null */
+	struct spec_scene_daylight *daylight; /* infinite: in place of that, or null */
+	int twosided;                         /* area */
 	struct spec_scene_place place;
 };
 

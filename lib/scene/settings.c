@@ -8,6 +8,7 @@
 #include "base/memory.h"
 #include "base/nearest.h"
 #include "base/number.h"
+#include "scene/outdoors.h"
 #include "scene/parsing.h"
 
 /* Replaces a text of the scene's by a copy of another; null: by none. */
@@ -39,7 +40,9 @@ whole(const struct spec_arguments *arguments, const char *name, int minimum, int
 static const struct spec_expected perspective[] = {SPEC_TAKES("fov", SPEC_FLOAT),
 	SPEC_TAKES("screenwindow", SPEC_FLOAT), SPEC_TAKES("frameaspectratio", SPEC_FLOAT),
 	SPEC_TAKES("lensradius", SPEC_FLOAT), SPEC_TAKES("focaldistance", SPEC_FLOAT),
-	SPEC_WARNS("shutteropen", NULL), SPEC_WARNS("shutterclose", NULL), {0}};
+	SPEC_TAKES("place", SPEC_STRING), SPEC_TAKES("toward", SPEC_STRING),
+	SPEC_TAKES("elevation", SPEC_FLOAT), SPEC_WARNS("shutteropen", NULL),
+	SPEC_WARNS("shutterclose", NULL), {0}};
 
 static const struct spec_expected spherical[] = {SPEC_TAKES("mapping", SPEC_STRING),
 	SPEC_WARNS("shutteropen", NULL), SPEC_WARNS("shutterclose", NULL), {0}};
@@ -98,12 +101,19 @@ spec_parser_camera(struct spec_parser *parser, struct spec_statement *statement)
 	struct spec_scene *scene = parser->scene;
 	const struct spec_parsing_sort *sort =
 		spec_parser_sort(parser, statement, cameras, NULL);
+	struct spec_transform view = parser->state.transform;
 	struct spec_parsing_name *system;
-	enum spec_status status;
+	enum spec_status status = SPEC_OK;
 
 	if (!sort)
 		return parser->error->status;
-	scene->camera = spec_transform_inverse(&parser->state.transform);
+	if (!sort->number)
+		status = spec_arguments_check(&arguments, perspective);
+	if (status == SPEC_OK && !sort->number)
+		status = spec_outdoors_face(&arguments, &view);
+	if (status != SPEC_OK)
+		return status;
+	scene->camera = spec_transform_inverse(&view);
 	system = spec_parser_add(&parser->systems, "camera", parser->error);
 	if (!system)
 		return SPEC_ENOMEM;
@@ -114,9 +124,7 @@ spec_parser_camera(struct spec_parser *parser, struct spec_statement *statement)
 	scene->all_around = 0;
 	if (sort->number)
 		return set_all_around(parser, &arguments);
-	status = spec_arguments_check(&arguments, perspective);
-	if (status == SPEC_OK)
-		status = spec_arguments_positive(&arguments, "fov", &scene->fov_deg);
+	status = spec_arguments_positive(&arguments, "fov", &scene->fov_deg);
 	if (status == SPEC_OK && !(scene->fov_deg < 180))
 		status = spec_arguments_fail(&arguments,
 			spec_arguments_find(&arguments, "fov"), SPEC_ERANGE,

@@ -1,0 +1,267 @@
+#include "scene/outdoors.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/memory.h"
+#include "place/coordinates.h"
+#include "place/instant.h"
+#include "place/sun.h"
+#include "scene/transform.h"
+
+#define PI 3.14159265358979323846
+#define RADIANS (PI / 180)
+#define NEAREST_M 1e-3  /* places no farther apart have no bearing */
+#define SMALLEST 1e-6   /* the sine between two directions that are told apart */
+#define STEEPEST_DEG 89 /* what looks straight up has no bearing */
+
+/* ---- places and times ---- */
+
+/* What a reader of texts said, as an error of the parameter. */
+static enum spec_status
+blame(const struct spec_arguments *arguments, const char *name, enum spec_status status,
+	const struct spec_error *cause)
+{
+	return spec_arguments_fail(arguments, spec_arguments_find(arguments, name), status,
+		"is refused: %s", cause->message);
+}
+
+static enum spec_status
+need_text(const struct spec_arguments *arguments, const char *name, const char **text)
+{
+	enum spec_status status = spec_arguments_text(arguments, name, text);
+
+	if (status == SPEC_OK && !*text)
+		status = spec_arguments_fail(
+			arguments, NULL, SPEC_EFORMAT, "needs \"string %s\"", name);
+	return status;
+}
+
+static enum spec_status
+read_place(
+	const struct spec_arguments *arguments, const char *name, struct spec_place *place)
+{
+	struct spec_error cause = {0};
+	const char *text = NULL;
+	enum spec_status status = need_text(arguments, name, &text);
+
+	if (status != SPEC_OK)
+		return status;
+	status = spec_place_parse(text, place, &cause);
+	return status == SPEC_OK ? status : blame(arguments, name, status, &cause);
+}
+
+static enum spec_status
+read_time(const struct spec_arguments *arguments, struct spec_instant *instant)
+{
+	struct spec_error cause = {0};
+	const char *text = NULL;
+	enum spec_status status = need_text(arguments, "time", &text);
+
+	if (status != SPEC_OK)
+		return status;
+	status = spec_instant_parse(text, instant, &cause);
+	return status == SPEC_OK ? status : blame(arguments, "time", status, &cause);
+}
+
+static enum spec_status
+find_sun(const struct spec_arguments *arguments, const struct spec_place *place,
+	struct spec_clearsky_sun *sun)
+{
+	struct spec_error cause = {0};
+	struct spec_instant instant;
+	struct spec_solar solar;
+	enum spec_status status = read_time(arguments, &instant);
+
+	if (status != SPEC_OK)
+		return status;
+	status = spec_solar_position(place, &instant, NULL, &solar, &cause);
+	if (status != SPEC_OK)
+		return blame(arguments, "time", status, &cause);
+	if (!(solar.zenith_refracted_deg < 90))
+		return spec_arguments_fail(arguments,
+			spec_arguments_find(arguments, "time"), SPEC_ERANGE,
+			"is when the sun is %.2f degrees below the horizon",
+			solar.zenith_refracted_deg - 90);
+	*sun = (struct spec_clearsky_sun){.zenith_deg = solar.zenith_refracted_deg,
+		.azimuth_deg = solar.azimuth_deg,
+		.distance_au = solar.distance_au};
+	return SPEC_OK;
+}
+
+/* ---- axes ---- */
+
+static double
+dot(const double a[3], const double b[3])
+{
+	return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static void
+cross(const double a[3], const double b[3], double result[3])
+{
+	for (int i = 0; i < 3; i++)
+		result[i] =
+			a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
+}
+
+/* Whether there is a direction to make a unit vector of. */
+static int
+normalise(double v[3])
+{
+	double length = hypot(hypot(v[0], v[1]), v[2]);
+
+	for (int i = 0; i < 3; i++)
+		v[i] /= length;
+	return length > 0 && length < INFINITY;
+}
+
+/* A direction of a space as a unit vector in the world. */
+static enum spec_status
+read_direction(const struct spec_arguments *arguments, const char *name,
+	const struct spec_transform *world, double v[3])
+{
+	double local[3] = {v[0], v[1], v[2]};
+	enum spec_status status = spec_arguments_numbers(arguments, name, 3, local);
+
+	for (int i = 0; i < 3; i++)
+		v[i] = dot(world->m[i], local);
+	if (status == SPEC_OK && !normalise(v))
+		status =
+			spec_arguments_fail(arguments, spec_arguments_find(arguments, name),
+				SPEC_ERANGE, "is no direction: it has no length");
+	return status;
+}
+
+static int
+is_mirrored(const struct spec_transform *transform)
+{
+	double x_by_y[3];
+
+	cross(transform->m[0], transform->m[1], x_by_y);
+	return dot(x_by_y, transform->m[2]) < 0;
+}
+
+static enum spec_status
+read_axes(const struct spec_arguments *arguments, const struct spec_transform *world,
+	struct spec_scene_daylight *daylight)
+{
+	double *up = daylight->up, *north = daylight->north, *east = daylight->east;
+	enum spec_status status;
+	double length;
+
+	up[1] = north[2] = 1;
+	status = read_direction(arguments, "up", world, up);
+	if (status == SPEC_OK)
+		status = read_direction(arguments, "north", world, north);
+	if (status != SPEC_OK)
+		return status;
+	cross(up, north, east);
+	length = sqrt(dot(east, east));
+	if (!(length > SMALLEST))
+		return spec_arguments_fail(
+			arguments, NULL, SPEC_ERANGE, "has up and north in one line");
+	if (is_mirrored(&arguments->scene->camera))
+		length = -length;
+	for (int i = 0; i < 3; i++)
+		east[i] /= length;
+	cross(east, up, north);
+	for (int i = 0; i < 3 && length < 0; i++)
+		north[i] = -north[i];
+	return SPEC_OK;
+}
+
+/* ---- daylight ---- */
+
+static enum spec_status
+read_atmosphere(const struct spec_arguments *arguments, const struct spec_place *place,
+	struct spec_atmosphere *atmosphere)
+{
+	struct spec_error cause = {0};
+	double turbidity;
+	enum spec_status status;
+
+	*atmosphere = spec_atmosphere_default();
+	turbidity = atmosphere->turbidity;
+	status = spec_arguments_number(arguments, "turbidity", SPEC_TURBIDITY_LOWEST,
+		SPEC_TURBIDITY_HIGHEST, &turbidity);
+	if (status == SPEC_OK)
+		status = spec_arguments_number(
+			arguments, "albedo", 0, 1, &atmosphere->ground_albedo);
+	if (status == SPEC_OK)
+		status = spec_atmosphere_set_turbidity(
+			atmosphere, turbidity, arguments->error);
+	if (status != SPEC_OK)
+		return status;
+	atmosphere->pressure_hpa = spec_air_standard(place->altitude_m).pressure_hpa;
+	status = spec_atmosphere_check(atmosphere, &cause);
+	return status == SPEC_OK ? status : blame(arguments, "place", status, &cause);
+}
+
+enum spec_status
+spec_outdoors_daylight(
+	const struct spec_arguments *arguments, struct spec_scene_light *light)
+{
+	struct spec_scene_daylight *daylight =
+		spec_memory_new(1, sizeof *daylight, "daylight", arguments->error);
+	struct spec_place place;
+	enum spec_status status;
+
+	if (!daylight)
+		return SPEC_ENOMEM;
+	light->daylight = daylight;
+	light->spectrum = (struct spec_scene_spectrum){
+		.kind = SPEC_SCENE_CONSTANT, .value = 1, .place = light->place};
+	daylight->has_sun = 1;
+	status = read_place(arguments, "place", &place);
+	if (status == SPEC_OK)
+		status = find_sun(arguments, &place, &daylight->sun);
+	if (status == SPEC_OK)
+		status = read_atmosphere(arguments, &place, &daylight->atmosphere);
+	if (status == SPEC_OK)
+		status = spec_arguments_flag(arguments, "sun", &daylight->has_sun);
+	return status == SPEC_OK ? read_axes(arguments, &light->world, daylight) : status;
+}
+
+/* ---- cameras ---- */
+
+enum spec_status
+spec_outdoors_face(const struct spec_arguments *arguments, struct spec_transform *camera)
+{
+	static const double eye[3] = {0, 0, 0}, up[3] = {0, 1, 0};
+	struct spec_transform view = spec_transform_identity();
+	struct spec_place from, to;
+	struct spec_geodesic way;
+	double elevation = 0, look[3], column[16];
+	enum spec_status status;
+
+	if (!spec_arguments_find(arguments, "place") &&
+		!spec_arguments_find(arguments, "toward") &&
+		!spec_arguments_find(arguments, "elevation"))
+		return SPEC_OK;
+	status = read_place(arguments, "place", &from);
+	if (status == SPEC_OK)
+		status = read_place(arguments, "toward", &to);
+	if (status == SPEC_OK)
+		status = spec_arguments_number(
+			arguments, "elevation", -STEEPEST_DEG, STEEPEST_DEG, &elevation);
+	if (status == SPEC_OK)
+		status = spec_place_geodesic(&from, &to, &way, arguments->error);
+	if (status != SPEC_OK)
+		return status;
+	if (!(way.distance_m > NEAREST_M))
+		return spec_arguments_fail(arguments,
+			spec_arguments_find(arguments, "toward"), SPEC_ERANGE,
+			"is where the camera is");
+	look[0] = cos(elevation * RADIANS) * sin(way.bearing_deg * RADIANS);
+	look[1] = sin(elevation * RADIANS);
+	look[2] = cos(elevation * RADIANS) * cos(way.bearing_deg * RADIANS);
+	status = spec_transform_look_at(&view, eye, look, up, arguments->error);
+	for (int i = 0; i < 16; i++)
+		column[i] = camera->m[i % 4][i / 4];
+	if (status == SPEC_OK)
+		status = spec_transform_concat(&view, column, arguments->error);
+	if (status == SPEC_OK)
+		*camera = view;
+	return status;
+}
