@@ -6,6 +6,7 @@
 
 #include "base/memory.h"
 #include "base/number.h"
+#include "base/path.h"
 #include "cli/options.h"
 #include "cli/progress.h"
 #include "colour/space.h"
@@ -464,21 +465,11 @@ parse(struct cli *cli, struct job *job, struct spec_error *error)
 	job->colours.grid = job->setup.grid;
 }
 
-/* The suffix of a path's last component with its dot, or "". */
-static const char *
-suffix_of(const char *path)
-{
-	const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
-	const char *dot = strrchr(name, '.');
-
-	return dot && dot > name ? dot : "";
-}
-
 /* Whether the output is text: as --format or the suffix says, else as the input is. */
 static enum spec_status
 settle_format(struct job *job, int input_is_text, struct spec_error *error)
 {
-	const char *output = job->settings.output, *suffix = suffix_of(output);
+	const char *output = job->settings.output, *suffix = spec_path_suffix(output);
 	const struct spec_writing_format *format;
 
 	if (job->text >= 0)

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "base/path.h"
 #include "base/text.h"
 #include "colour/observer.h"
 #include "colour/space.h"
@@ -30,15 +31,13 @@ struct atlas {
 static char *
 short_name(const char *name, struct spec_error *error)
 {
-	const char *slash = strrchr(name, '/'), *begin = slash ? slash + 1 : name;
-	size_t length = strlen(begin);
+	const char *begin = spec_path_name(name), *suffix = spec_path_suffix(name);
+	size_t length =
+		spec_kind_is_text_name(begin) ? (size_t)(suffix - begin) : strlen(begin);
 	char *text = spec_memory_new(length + 1, 1, "names", error);
 
-	if (!text)
-		return NULL;
-	memcpy(text, begin, length);
-	if (spec_kind_is_text_name(begin) && strrchr(text, '.') != text)
-		*strrchr(text, '.') = '\0';
+	if (text)
+		memcpy(text, begin, length);
 	return text;
 }
 

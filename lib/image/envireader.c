@@ -13,6 +13,7 @@
 
 #include "base/memory.h"
 #include "base/number.h"
+#include "base/path.h"
 #include "image/description.h"
 #include "image/enviheader.h"
 #include "image/given.h"
@@ -49,10 +50,7 @@ is_header(const unsigned char *bytes, size_t size)
 static size_t
 stem_length(const char *path)
 {
-	const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
-	const char *dot = strrchr(name, '.');
-
-	return dot && dot > name ? (size_t)(dot - path) : strlen(path);
+	return (size_t)(spec_path_suffix(path) - path);
 }
 
 /* A path of which the first so many bytes are followed by a suffix; empty: too long. */

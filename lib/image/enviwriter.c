@@ -6,10 +6,10 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 #include "base/memory.h"
 #include "base/output.h"
+#include "base/path.h"
 #include "base/text.h"
 #include "image/description.h"
 #include "image/enviheader.h"
@@ -32,14 +32,6 @@ struct envi_packer {
 
 /* ---- names ---- */
 
-static int
-ends_in(const char *path, const char *suffix)
-{
-	size_t length = strlen(path), tail = strlen(suffix);
-
-	return length > tail && strcasecmp(path + length - tail, suffix) == 0;
-}
-
 /* path without its last cut bytes, and suffix behind. */
 static char *
 make_path(const char *path, size_t cut, const char *suffix, struct spec_error *error)
@@ -58,22 +50,20 @@ static enum spec_status
 name_files(struct envi_writer *writer, struct spec_error *error)
 {
 	const char *path = writer->base.path;
-	size_t suffix = ends_in(path, ".img") || ends_in(path, ".bsq") ||
-					ends_in(path, ".bil") || ends_in(path, ".bip") ||
-					ends_in(path, ".hdr")
-				? 4
-				: 0;
+	int header = spec_path_has_suffix(path, ".hdr");
+	int bsq = spec_path_has_suffix(path, ".bsq"),
+	    bip = spec_path_has_suffix(path, ".bip");
+	int data = bsq || bip || spec_path_has_suffix(path, ".bil") ||
+		   spec_path_has_suffix(path, ".img");
 
 	if (strcmp(path, "-") == 0)
 		return spec_error_set(error, SPEC_EUSAGE,
 			"an ENVI image is two files, and cannot go to standard output (-o "
 			"FILE.hdr)");
-	writer->interleave = ends_in(path, ".bsq")   ? ENVI_BSQ
-			     : ends_in(path, ".bip") ? ENVI_BIP
-						     : ENVI_BIL;
-	writer->header_path = make_path(path, suffix, ".hdr", error);
-	writer->data_path = ends_in(path, ".hdr") ? make_path(path, 4, ".img", error)
-						  : make_path(path, 0, "", error);
+	writer->interleave = bsq ? ENVI_BSQ : bip ? ENVI_BIP : ENVI_BIL;
+	writer->header_path = make_path(path, header || data ? 4 : 0, ".hdr", error);
+	writer->data_path =
+		header ? make_path(path, 4, ".img", error) : make_path(path, 0, "", error);
 	return writer->header_path && writer->data_path ? SPEC_OK : SPEC_ENOMEM;
 }
 

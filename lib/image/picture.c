@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "base/path.h"
 #include "image/encoder.h"
 
 #define COUNT(list) (sizeof(list) / sizeof *(list))
@@ -45,20 +46,18 @@ find_format(const char *suffix)
 static enum spec_status
 take_suffix(const char *path, char *suffix, size_t room, struct spec_error *error)
 {
-	const char *slash = strrchr(path, '/');
-	const char *name = slash ? slash + 1 : path;
-	const char *dot = strrchr(name, '.');
-	size_t length = dot ? strlen(dot + 1) : 0;
+	const char *dot = spec_path_suffix(path);
+	size_t length = strlen(dot);
 
-	if (length == 0 || dot == name)
+	if (length <= 1)
 		return spec_error_set(error, SPEC_EUSAGE,
 			"unable to write '%s': no suffix that names a picture format, such "
 			"as .png",
 			path);
-	if (length >= room)
+	if (length > room)
 		return spec_error_set(error, SPEC_EUNSUPPORTED,
 			"unable to write '%s': no picture format for '%s'", path, dot);
-	for (size_t i = 0; i <= length; i++)
+	for (size_t i = 0; i < length; i++)
 		suffix[i] = (char)tolower((unsigned char)dot[1 + i]);
 	return SPEC_OK;
 }

@@ -15,6 +15,7 @@
 
 #include "base/memory.h"
 #include "base/number.h"
+#include "base/path.h"
 #include "colour/space.h"
 #include "image/description.h"
 #include "image/given.h"
@@ -144,12 +145,12 @@ list_folder(struct picture_reader *reader, const char *path, struct spec_error *
 	if (!folder)
 		return spec_error_system(error, errno, "unable to open '%s'", path);
 	while (status == SPEC_OK && (entry = readdir(folder))) {
-		const char *dot = strrchr(entry->d_name, '.');
+		const char *suffix = spec_path_suffix(entry->d_name);
 		struct stat about;
-		int pass = entry->d_name[0] == '.' || !dot;
+		int pass = entry->d_name[0] == '.' || !*suffix;
 
 		for (size_t i = 0; !pass && i < sizeof passed / sizeof *passed; i++)
-			pass = strcasecmp(dot, passed[i]) == 0;
+			pass = strcasecmp(suffix, passed[i]) == 0;
 		if (!pass && fstatat(dirfd(folder), entry->d_name, &about, 0) == 0 &&
 			S_ISREG(about.st_mode))
 			status = add_input(reader, path, entry->d_name, error);
@@ -420,7 +421,7 @@ set_cube(struct picture_reader *reader, const struct spec_settings *settings,
 static double
 wavelength_of(const char *path)
 {
-	const char *slash = strrchr(path, '/'), *found = slash ? slash + 1 : path;
+	const char *found = spec_path_name(path);
 
 	while ((found = strstr(found, "nm"))) {
 		const char *from = found;

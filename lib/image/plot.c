@@ -8,6 +8,7 @@
 
 #include "base/memory.h"
 #include "base/output.h"
+#include "base/path.h"
 #include "base/text.h"
 #include "colour/dominant.h"
 #include "colour/space.h"
@@ -20,10 +21,10 @@ spec_plot_open(const char *path, struct spec_plot *plot, struct spec_error *erro
 	static const char *const suffix[] = {[SPEC_PLOTTING_PNG] = ".png",
 		[SPEC_PLOTTING_SVG] = ".svg",
 		[SPEC_PLOTTING_PDF] = ".pdf"};
-	const char *dot = strrchr(path, '.');
+	const char *dot = spec_path_suffix(path);
 
 	*plot = (struct spec_plot){0};
-	for (size_t i = 0; dot && i < sizeof suffix / sizeof *suffix; i++) {
+	for (size_t i = 0; i < sizeof suffix / sizeof *suffix; i++) {
 		if (strcasecmp(dot, suffix[i]) == 0) {
 			plot->format = (enum spec_plotting_format)i;
 			return SPEC_OK;

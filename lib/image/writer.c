@@ -6,6 +6,7 @@
 #include <strings.h>
 
 #include "base/memory.h"
+#include "base/path.h"
 #include "image/exr.h"
 #include "image/writing.h"
 
@@ -130,16 +131,6 @@ is_listed(const char *list, const char *name)
 	return 0;
 }
 
-/* The suffix of a path's last component with its dot, or "". */
-static const char *
-suffix_of(const char *path)
-{
-	const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
-	const char *dot = strrchr(name, '.');
-
-	return dot && dot > name ? dot : "";
-}
-
 /* What all formats together say: their names, or their suffixes. */
 static void
 list_known(char text[256], int suffixes)
@@ -187,7 +178,7 @@ enum spec_status
 spec_writer_choose(const char *path, const char *name,
 	const struct spec_writing_format **format, struct spec_error *error)
 {
-	const char *suffix = suffix_of(path);
+	const char *suffix = spec_path_suffix(path);
 	char known[256];
 
 	*format = formats[0];

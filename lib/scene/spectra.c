@@ -197,14 +197,6 @@ translate(const char *name, char *ours, size_t size, const char **column, const 
 	return 1;
 }
 
-static int
-ends_in(const char *text, const char *end)
-{
-	size_t length = strlen(text);
-
-	return length > strlen(end) && strcmp(text + length - strlen(end), end) == 0;
-}
-
 /* The path of the file that a name stands for, to be freed. */
 static enum spec_status
 find(const struct spec_arguments *arguments, const struct spec_scene_place *place,
@@ -213,8 +205,7 @@ find(const struct spec_arguments *arguments, const struct spec_scene_place *plac
 	enum spec_status status = SPEC_OK;
 
 	*path = NULL;
-	if (strchr(name, '/') || ends_in(name, ".spd") || ends_in(name, ".txt") ||
-		ends_in(name, ".csv")) {
+	if (spec_lookup_is_path(name)) {
 		status = spec_scene_find_file(
 			arguments->scene, place, name, path, arguments->error);
 		if (status != SPEC_OK || *path)

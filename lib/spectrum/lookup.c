@@ -12,6 +12,7 @@
 
 #include "base/memory.h"
 #include "base/nearest.h"
+#include "base/path.h"
 #include "spectrum/illuminant.h"
 #include "spectrum/spd.h"
 
@@ -40,14 +41,6 @@ join(const char *first, const char *between, const char *second, struct spec_err
 	if (text)
 		snprintf(text, length, "%s%s%s", first, between, second);
 	return text;
-}
-
-static int
-ends_in(const char *text, const char *end)
-{
-	size_t length = strlen(text), end_length = strlen(end);
-
-	return length > end_length && strcmp(text + length - end_length, end) == 0;
 }
 
 /* Adds the file at path, whose full name is name with SUFFIX behind it. */
@@ -86,7 +79,7 @@ add_item(struct catalogue *catalogue, const char *folder_name, const char *folde
 	if (status == SPEC_OK && stat(path, &about) == 0) {
 		if (S_ISDIR(about.st_mode) && levels > 0)
 			status = add_folder(catalogue, name, path, levels - 1, error);
-		else if (!S_ISDIR(about.st_mode) && ends_in(item, SUFFIX))
+		else if (!S_ISDIR(about.st_mode) && spec_path_has_suffix(item, SUFFIX))
 			status = add_entry(catalogue, name, path, error);
 	}
 	free(name);
@@ -284,11 +277,11 @@ suggest(const struct catalogue *catalogue, const char *name)
 	return nearest;
 }
 
-static int
-is_path(const char *name)
+int
+spec_lookup_is_path(const char *name)
 {
-	return strchr(name, '/') || ends_in(name, ".spd") || ends_in(name, ".txt") ||
-	       ends_in(name, ".csv");
+	return strchr(name, '/') || spec_path_has_suffix(name, ".spd") ||
+	       spec_path_has_suffix(name, ".txt") || spec_path_has_suffix(name, ".csv");
 }
 
 static enum spec_status
@@ -300,13 +293,13 @@ fail_missing(const struct catalogue *catalogue, const char *name, struct spec_er
 
 	if (!stem)
 		return SPEC_ENOMEM;
-	if (ends_in(stem, SUFFIX))
+	if (spec_path_has_suffix(stem, SUFFIX))
 		stem[strlen(stem) - strlen(SUFFIX)] = '\0';
 	nearest = suggest(catalogue, stem);
 	free(stem);
 	status = spec_error_set(error, SPEC_EUSAGE,
 		"no spectrum '%.200s': %s in %.500s%s%s%s", name,
-		is_path(name) ? "no such file, nor is it" : "it is not",
+		spec_lookup_is_path(name) ? "no such file, nor is it" : "it is not",
 		catalogue->roots ? catalogue->roots
 				 : "any folder, for SPECTRA_PATH names none",
 		nearest ? "; did you mean '" : "", nearest ? nearest : "",
@@ -341,7 +334,8 @@ spec_lookup_path(const char *name, char **path, struct spec_error *error)
 	enum spec_status status;
 
 	*path = NULL;
-	if (is_path(name) && stat(name, &about) == 0 && !S_ISDIR(about.st_mode)) {
+	if (spec_lookup_is_path(name) && stat(name, &about) == 0 &&
+		!S_ISDIR(about.st_mode)) {
 		*path = spec_memory_text(name, strlen(name), error);
 		return *path ? SPEC_OK : SPEC_ENOMEM;
 	}

@@ -29,6 +29,9 @@
 enum spec_status spec_lookup_curve(
 	const char *name, struct spec_curve *curve, struct spec_error *error);
 
+/* Whether a name may be a path: it contains '/', or ends in .spd, .txt or .csv. */
+int spec_lookup_is_path(const char *name);
+
 /*
  * The path of the file that it reads, to be freed; null on an error. What has a formula
  * has no file: there is no spectrum of that name then.

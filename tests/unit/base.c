@@ -19,9 +19,32 @@
 #include "base/number.h"
 #include "base/output.h"
 #include "base/parallel.h"
+#include "base/path.h"
 #include "base/source.h"
 
 #include "check.h"
+
+/* Paths */
+
+static void
+test_path(void **state)
+{
+	static const struct {
+		const char *path, *name, *suffix;
+	} parts[] = {{"a.exr", "a.exr", ".exr"}, {"a/b.c/d.tar.gz", "d.tar.gz", ".gz"},
+		{"a.b/c", "c", ""}, {"a/.hidden", ".hidden", ""}, {".a.b", ".a.b", ".b"},
+		{"a.b/", "", ""}, {"a.", "a.", "."}, {"", "", ""}, {"-", "-", ""}};
+
+	(void)state;
+	for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) {
+		assert_string_equal(spec_path_name(parts[i].path), parts[i].name);
+		assert_string_equal(spec_path_suffix(parts[i].path), parts[i].suffix);
+	}
+	assert_true(spec_path_has_suffix("a/B.Spd", ".spd"));
+	assert_false(spec_path_has_suffix("a.spd/b", ".spd"));
+	assert_false(spec_path_has_suffix("a/.spd", ".spd"));
+	assert_false(spec_path_has_suffix("aspd", ".spd"));
+}
 
 /* Messages */
 
@@ -1147,6 +1170,7 @@ int
 main(void)
 {
 	const struct CMUnitTest tests[] = {
+		cmocka_unit_test(test_path),
 		cmocka_unit_test(test_error_line_breaks),
 		cmocka_unit_test(test_error_system),
 		cmocka_unit_test(test_error_prefix),
