@@ -96,6 +96,9 @@ spec_seen_of(const char *quantity, const char *unit)
 		return SPEC_SEEN_REFLECTED;
 	if (begins(quantity, "radiance"))
 		return begins(unit, "relative") ? SPEC_SEEN_RELATIVE : SPEC_SEEN_RADIANCE;
+	if (strcmp(quantity, "spectral power distribution") == 0 &&
+		strcmp(unit, "W m-2 nm-1") == 0)
+		return SPEC_SEEN_IRRADIANCE;
 	if (*quantity == '\0' || strcmp(quantity, "spectral power distribution") == 0)
 		return SPEC_SEEN_RELATIVE;
 	return SPEC_SEEN_NOTHING;
@@ -120,8 +123,8 @@ is_finite(const double xyz[3])
 static double
 scale_of(const struct spec_viewing *viewing, enum spec_seen seen, double y, double *white)
 {
-	*white = 1;
-	if (seen == SPEC_SEEN_RADIANCE)
+	*white = seen == SPEC_SEEN_IRRADIANCE ? y : 1;
+	if (seen == SPEC_SEEN_RADIANCE || seen == SPEC_SEEN_IRRADIANCE)
 		return viewing->observer_luminance;
 	if (seen != SPEC_SEEN_RELATIVE)
 		return 100;
@@ -138,7 +141,8 @@ spec_appearance_find(const struct spec_viewing *viewing, enum spec_seen seen,
 
 	spec_appearance_clear(appearance);
 	if (seen == SPEC_SEEN_NOTHING || !is_finite(xyz) || !is_finite(standard) ||
-		(seen == SPEC_SEEN_RELATIVE && !(xyz[1] > 0)))
+		((seen == SPEC_SEEN_RELATIVE || seen == SPEC_SEEN_IRRADIANCE) &&
+			!(xyz[1] > 0)))
 		return SPEC_OK;
 	scale = scale_of(viewing, seen, xyz[1], &y);
 	for (int i = 0; i < 3; i++) {
@@ -153,6 +157,8 @@ spec_appearance_find(const struct spec_viewing *viewing, enum spec_seen seen,
 	}
 	if (seen == SPEC_SEEN_RADIANCE)
 		appearance->luminance = viewing->luminance * standard[1];
+	if (seen == SPEC_SEEN_IRRADIANCE)
+		appearance->illuminance = viewing->luminance * standard[1];
 	if (seen != SPEC_SEEN_REFLECTED)
 		spec_temperature_find(
 			&viewing->standard, standard, &appearance->cct_k, &appearance->duv);
@@ -234,6 +240,7 @@ spec_appearance_json(struct spec_json *json, const struct spec_appearance *appea
 	spec_json_number(json, "dominant_nm", appearance->dominant_nm);
 	spec_json_number(json, "purity", appearance->purity);
 	spec_json_number(json, "luminance", appearance->luminance);
+	spec_json_number(json, "illuminance", appearance->illuminance);
 	spec_json_number(json, "outside", appearance->outside);
 }
 
@@ -269,6 +276,8 @@ spec_appearance_print(
 			fabs(a->dominant_nm), a->purity);
 	if (isfinite(a->luminance))
 		fprintf(stream, "%s%-13s %.6g cd/m^2\n", lead, "luminance", a->luminance);
+	if (isfinite(a->illuminance))
+		fprintf(stream, "%s%-13s %.6g lx\n", lead, "illuminance", a->illuminance);
 	if (a->outside > MUCH && isfinite(a->xyz[0]))
 		fprintf(stream, "%s%-13s %.1f %% of Y, not counted\n", lead, "outside",
 			100 * a->outside);

@@ -29,34 +29,40 @@ enum spec_status spec_viewing_load(const char *observer, const char *illuminant,
 void spec_viewing_free(struct spec_viewing *viewing);
 
 enum spec_seen {
-	SPEC_SEEN_NOTHING,   /* neither light nor a ratio, such as an index: all is NaN */
-	SPEC_SEEN_REFLECTED, /* reflectance or transmittance, under the illuminant */
-	SPEC_SEEN_RELATIVE,  /* light of which only the ratios of its powers are known */
-	SPEC_SEEN_LIGHT,     /* light on a scale of its own */
-	SPEC_SEEN_RADIANCE   /* light in W m^-2 sr^-1, per nm or per band */
+	SPEC_SEEN_NOTHING,    /* neither light nor a ratio, such as an index: all is NaN */
+	SPEC_SEEN_REFLECTED,  /* reflectance or transmittance, under the illuminant */
+	SPEC_SEEN_RELATIVE,   /* light of which only the ratios of its powers are known */
+	SPEC_SEEN_LIGHT,      /* light on a scale of its own */
+	SPEC_SEEN_IRRADIANCE, /* power in W m^-2 nm^-1 */
+	SPEC_SEEN_RADIANCE    /* light in W m^-2 sr^-1, per nm or per band */
 };
 
-/* By the texts of a quantity and a unit, as of curves; "" is not known. */
+/*
+ * By the texts of a quantity and a unit, as of curves; "" is not known. A spectral power
+ * distribution is an irradiance where its unit is "W m-2 nm-1".
+ */
 enum spec_seen spec_seen_of(const char *quantity, const char *unit);
 
 /* What has no meaning or is not known is NaN. */
 struct spec_appearance {
 	/*
 	 * Reflected: Y = 100 for the perfect reflector. Relative: Y = 100. Light: Y = 100 for
-	 * 1 per nm at all wavelengths. Radiance: Y in cd m^-2 (by its observer).
+	 * 1 per nm at all wavelengths. Radiance: Y in cd m^-2, irradiance: in lx (by the
+	 * observer).
 	 */
 	double xyz[3];
 	double xy[2];
 	double uv[2]; /* u', v' of the CIE 1976 diagram */
 	/*
 	 * CIELAB; white is the perfect reflector under the illuminant, for light that with
-	 * Y = 1 for 1 per nm at all wavelengths, and for relative light that with the
-	 * light's own Y.
+	 * Y = 1 for 1 per nm at all wavelengths, and for relative light and irradiance
+	 * that with the light's own Y.
 	 */
 	double lab[3];
 	double cct_k, duv;          /* of light alone: temperature.h */
 	double dominant_nm, purity; /* dominant.h: negative is complementary */
 	double luminance;           /* cd m^-2, of radiance alone: 683 lm/W, CIE 1931 */
+	double illuminance;         /* lx, of irradiance alone: as well */
 	double outside; /* fraction of Y that is outside of what the spectrum tells of */
 };
 

@@ -9,7 +9,6 @@
 #include "scene/paths.h"
 #include "scene/represented.h"
 #include "spectrum/curve.h"
-#include "spectrum/illuminant.h"
 #include "spectrum/lookup.h"
 #include "spectrum/spd.h"
 #include "spectrum/store.h"
@@ -265,7 +264,7 @@ load(const struct spec_arguments *arguments, const struct spec_parameter *parame
 	return status;
 }
 
-/* A light by formula, which has no file. */
+/* What is computed and has no file. */
 static enum spec_status
 compute(const struct spec_arguments *arguments, const struct spec_parameter *parameter,
 	const char *name, struct spec_scene_spectrum *spectrum)
@@ -290,7 +289,7 @@ read_named(const struct spec_arguments *arguments, const struct spec_parameter *
 	enum spec_status status;
 	size_t column;
 
-	if (spec_illuminant_is_formula(name)) {
+	if (spec_lookup_is_computed(name)) {
 		status = compute(arguments, parameter, name, spectrum);
 	} else {
 		status = find_named(arguments, parameter, name, use, &path);

@@ -369,6 +369,20 @@ calculate(const char *name, struct spec_curve *curve, struct spec_error *error)
 	return status;
 }
 
+static const struct spec_lookup_maker *maker;
+
+void
+spec_lookup_set_maker(const struct spec_lookup_maker *next)
+{
+	maker = next;
+}
+
+int
+spec_lookup_is_computed(const char *name)
+{
+	return spec_illuminant_is_formula(name) || (maker && maker->knows(name));
+}
+
 enum spec_status
 spec_lookup_curve(const char *name, struct spec_curve *curve, struct spec_error *error)
 {
@@ -377,6 +391,8 @@ spec_lookup_curve(const char *name, struct spec_curve *curve, struct spec_error 
 
 	if (spec_illuminant_is_formula(name))
 		return calculate(name, curve, error);
+	if (maker && maker->knows(name))
+		return maker->make(name, curve, error);
 	status = spec_lookup_path(name, &path, error);
 	*curve = (struct spec_curve){0};
 	if (status == SPEC_OK)

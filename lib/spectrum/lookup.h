@@ -15,7 +15,8 @@
 
 /*
  * Reads the curve that name stands for:
- * 0. an illuminant by formula, "daylight:6504K" or "blackbody:3000K", illuminant.h;
+ * 0. an illuminant by formula, "daylight:6504K" or "blackbody:3000K", illuminant.h, or what
+ *    the program's maker makes;
  * 1. the file at the path name, if name contains '/' or ends in .spd, .txt or .csv and
  *    something that is no folder is there;
  * 2. the file of that full name, or whose full name ends in '/' and name, in the first
@@ -33,8 +34,24 @@ enum spec_status spec_lookup_curve(
 int spec_lookup_is_path(const char *name);
 
 /*
- * The path of the file that it reads, to be freed; null on an error. What has a formula
- * has no file: there is no spectrum of that name then.
+ * What makes spectra of names that rooms below this one know, such as those of places.
+ * knows: whether a name is one of them. make: its curve, as spec_lookup_curve.
+ */
+struct spec_lookup_maker {
+	int (*knows)(const char *name);
+	enum spec_status (*make)(
+		const char *name, struct spec_curve *curve, struct spec_error *error);
+};
+
+/* Sets the program's maker, which stays where it is; before any threads. Null: none. */
+void spec_lookup_set_maker(const struct spec_lookup_maker *maker);
+
+/* Whether a name is computed: by formula, or by the program's maker. */
+int spec_lookup_is_computed(const char *name);
+
+/*
+ * The path of the file that it reads, to be freed; null on an error. What is computed has no
+ * file: there is no spectrum of that name then.
  */
 enum spec_status spec_lookup_path(const char *name, char **path, struct spec_error *error);
 

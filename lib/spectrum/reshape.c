@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "base/text.h"
-#include "spectrum/illuminant.h"
 #include "spectrum/lookup.h"
 #include "spectrum/operate.h"
 #include "spectrum/product.h"
@@ -15,7 +14,7 @@
 #include "spectrum/spdtable.h"
 #include "spectrum/store.h"
 
-/* The table of an illuminant by formula. */
+/* The table of what is computed. */
 static enum spec_status
 calculate(const char *name, struct spec_spd_table *table, struct spec_error *error)
 {
@@ -55,7 +54,7 @@ read_table(const char *name, struct spec_spd_table *table, char **path,
 	*path = NULL;
 	if (strcmp(name, "-") == 0)
 		return spec_spd_table_read(stdin, "<stdin>", table, error);
-	if (spec_illuminant_is_formula(name))
+	if (spec_lookup_is_computed(name))
 		return calculate(name, table, error);
 	*table = (struct spec_spd_table){0};
 	status = spec_lookup_path(name, path, error);

@@ -9,7 +9,6 @@
 #include "base/memory.h"
 #include "base/output.h"
 #include "base/text.h"
-#include "spectrum/illuminant.h"
 #include "spectrum/lookup.h"
 #include "spectrum/spd.h"
 #include "spectrum/spdtable.h"
@@ -195,7 +194,7 @@ spec_spectrum_named(
 	char *path;
 	enum spec_status status;
 
-	if (spec_illuminant_is_formula(name))
+	if (spec_lookup_is_computed(name))
 		return calculate(name, spectrum, error);
 	status = spec_lookup_path(name, &path, error);
 	*spectrum = (struct spec_spectrum){0};

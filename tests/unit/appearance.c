@@ -318,6 +318,14 @@ test_appearance_scales(void **state)
 	assert_true(isnan(found.xyz[1]) && isnan(found.lab[0]));
 	see_level(&viewing, "radiance", "relative", &found);
 	assert_true(found.xyz[1] == 100 && isnan(found.luminance));
+	assert_true(isnan(found.illuminance));
+	see_level(&viewing, "spectral power distribution", "relative", &found);
+	assert_true(found.xyz[1] == 100 && isnan(found.illuminance));
+	see_level(&viewing, "spectral power distribution", "W m-2 nm-1", &found);
+	near(found.illuminance, 683 * 106.857, 1, "illuminance");
+	near(found.xyz[1], found.illuminance, 1e-9, "Y");
+	near(found.lab[0], 100, 1e-9, "L*");
+	assert_true(isnan(found.luminance));
 	spec_viewing_free(&viewing);
 	/* Equal energy has x' = y' = 1/3 by either observer; D65 by the 10 degree observer: */
 	assert_int_equal(spec_viewing_load("1964", "D65", &viewing, &error), SPEC_OK);

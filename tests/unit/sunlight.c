@@ -1,0 +1,301 @@
+/* lib/place: spectra named after a place and a time. */
+#include "check.h"
+
+#include <stdlib.h>
+
+#include "colour/temperature.h"
+#include "place/sunlight.h"
+#include "spectrum/lookup.h"
+#include "spectrum/store.h"
+
+#define LEUVEN "50.88N 4.70E,"
+#define NOON LEUVEN "2005-05-17T13:37+02:00"
+
+static struct spec_error error;
+
+static void
+expect_ok(enum spec_status status)
+{
+	if (status != SPEC_OK)
+		fail_msg("%s", error.message);
+}
+
+static struct spec_sunlight
+parse(const char *name)
+{
+	struct spec_sunlight sunlight;
+
+	expect_ok(spec_sunlight_parse(name, &sunlight, &error));
+	return sunlight;
+}
+
+static struct spec_curve
+make(const char *name)
+{
+	struct spec_curve curve;
+
+	expect_ok(spec_sunlight_named(name, &curve, &error));
+	return curve;
+}
+
+static double
+at(const struct spec_curve *curve, double nm)
+{
+	double value;
+
+	expect_ok(spec_curve_sample(
+		curve, 0, SPEC_EXTRAPOLATE_REFUSE, &nm, 1, &value, &error));
+	return value;
+}
+
+static void
+options_are_read(void **state)
+{
+	struct spec_sunlight sunlight = parse("daylight@" NOON);
+	const struct spec_atmosphere *air = &sunlight.atmosphere;
+
+	(void)state;
+	assert_int_equal(sunlight.part, SPEC_SUNLIGHT_BOTH);
+	near(sunlight.place.latitude_deg, 50.88, 1e-9, "latitude");
+	near(sunlight.place.longitude_deg, 4.70, 1e-9, "longitude");
+	assert_int_equal(sunlight.instant.offset_s, 7200);
+	assert_false(sunlight.has_plane);
+	near(air->turbidity, 3, 0, "turbidity");
+	near(air->pressure_hpa, 1013.25, 1e-9, "pressure");
+
+	/* Commas and blanks in a place, blanks before an option, an altitude. */
+	sunlight = parse("sky@50.88, 4.70 1000m, 2005-05-17T13:37+02:00, turbidity=5,"
+			 "angstrom=1,ozone=.4, water=2,albedo=.5,tilt=30deg,facing=90");
+	assert_int_equal(sunlight.part, SPEC_SUNLIGHT_SKY);
+	near(sunlight.place.altitude_m, 1000, 0, "altitude");
+	near(air->pressure_hpa, 898.75, .03, "pressure at 1 km (ISO 2533)");
+	near(air->turbidity, 5, 0, "turbidity");
+	near(air->aerosol_exponent, 1, 0, "exponent");
+	near(air->aerosol_depth, (.04608 * 5 - .04586) * 2, 1e-12, "depth");
+	near(air->ozone_cm, .4, 0, "ozone");
+	near(air->water_cm, 2, 0, "water");
+	near(air->ground_albedo, .5, 0, "albedo");
+	assert_true(sunlight.has_plane);
+	near(sunlight.plane.tilt_deg, 30, 0, "tilt");
+	near(sunlight.plane.azimuth_deg, 90, 0, "azimuth");
+
+	/* The depth of aerosol has the last word, wherever it stands. */
+	sunlight = parse("sun@" NOON ",aerosol=.05,turbidity=8,pressure=500,tilt=10");
+	assert_int_equal(sunlight.part, SPEC_SUNLIGHT_SUN);
+	near(air->aerosol_depth, .05, 0, "depth");
+	near(air->turbidity, 8, 0, "turbidity");
+	near(air->pressure_hpa, 500, 0, "pressure");
+	near(sunlight.plane.azimuth_deg, 180, 0, "faces south");
+	sunlight = parse("sun@" NOON ",facing=270");
+	near(sunlight.plane.tilt_deg, 90, 0, "a wall");
+}
+
+static void
+faults_are_shown(void **state)
+{
+	static const struct {
+		const char *name;
+		enum spec_status status;
+		const char *message;
+		const char *fault; /* where the caret stands */
+	} cases[] = {
+		{"daylight@", SPEC_EUSAGE, "a place, a comma and a time", "@"},
+		{"sun@50.88N 4.70E", SPEC_EUSAGE, "a place, a comma and a time", "50.88N"},
+		{"sun@50.88N 4.70E,turbidity=2", SPEC_EUSAGE, "a place, a comma", "50.88N"},
+		{"sun@" LEUVEN "noon", SPEC_EUSAGE, "'noon' is no time", "noon"},
+		{"sun@" LEUVEN "2005-05-17T12:00", SPEC_EUSAGE, "in which zone", "2005"},
+		{"sun@Leuven,2005-05-17T12:00Z", SPEC_EUSAGE, "'Leuven' is no place",
+			"Leuven"},
+		{"sun@91N 4E,2005-05-17T12:00Z", SPEC_EUSAGE, "is no place", "91N"},
+		{"sun@" NOON ",mist=1,water=1", SPEC_EUSAGE, "'mist' is none of", "mist"},
+		{"sun@" NOON ",tilt=1,ozone=1,tilt=2", SPEC_EUSAGE, "'tilt' is given twice",
+			"tilt=1"},
+		{"sun@" NOON ",turbidity=.9", SPEC_ERANGE, "turbidity", "turbidity"},
+		{"sun@" NOON ",turbidity=11", SPEC_ERANGE, "turbidity", "turbidity"},
+		{"sun@" NOON ",albedo=1.5", SPEC_ERANGE, "albedo", "albedo"},
+		{"sun@" NOON ",water=", SPEC_EUSAGE, "water", "water"},
+		{"sun@" NOON ",tilt=200", SPEC_ERANGE, "tilt", "tilt"},
+		{"moon@" NOON, SPEC_EUSAGE, "does not begin with sun@", NULL},
+	};
+
+	(void)state;
+	for (size_t i = 0; i < COUNT(cases); i++) {
+		struct spec_sunlight sunlight;
+		const char *name = cases[i].name;
+
+		error = (struct spec_error){0};
+		assert_int_equal(
+			spec_sunlight_parse(name, &sunlight, &error), cases[i].status);
+		assert_contains(error.message, cases[i].message);
+		if (cases[i].fault) {
+			size_t column = (size_t)(strstr(name, cases[i].fault) - name);
+			const char *caret = strrchr(error.place, '\n');
+
+			column += cases[i].fault[0] == '@'; /* nothing stands behind it */
+			column = column > 48 ? 48 : column; /* of an excerpt */
+			assert_non_null(caret);
+			assert_int_equal(strspn(caret + 1, " "), column + 2);
+		}
+	}
+}
+
+/* Kiruna's sun does not set on 21 June and does not rise on 21 December. */
+static void
+there_is_no_light_in_the_night(void **state)
+{
+	static const struct {
+		const char *name;
+		const char *message; /* null: it is day */
+	} cases[] = {
+		{"daylight@" LEUVEN "2005-05-17T05:40+02:00", "below the horizon"},
+		{"daylight@" LEUVEN "2005-05-17T05:52+02:00", NULL},
+		{"daylight@" LEUVEN "2005-05-17T21:22+02:00", NULL},
+		{"sun@" LEUVEN "2005-05-17T21:35+02:00", "below the horizon"},
+		{"sky@" LEUVEN "2005-05-17T23:00+02:00", "is 11.58 degrees below"},
+		{"sky@67.86N 20.22E,2005-06-21T22:40Z", NULL},
+		{"sky@67.86N 20.22E,2005-12-21T10:40Z", "below the horizon"},
+		{"sky@50.88N 4.70E 30km,2005-05-17T13:00+02:00", "altitude of 30000 m"},
+	};
+
+	(void)state;
+	for (size_t i = 0; i < COUNT(cases); i++) {
+		struct spec_curve curve;
+		enum spec_status status =
+			spec_sunlight_named(cases[i].name, &curve, &error);
+
+		assert_int_equal(status, cases[i].message ? SPEC_ERANGE : SPEC_OK);
+		if (cases[i].message)
+			assert_contains(error.message, cases[i].message);
+		spec_curve_free(&curve);
+	}
+}
+
+static void
+parts_are_those_of_the_clear_sky(void **state)
+{
+	struct spec_sunlight sunlight = parse("sun@" NOON ",turbidity=2");
+	struct spec_curve sun = make("sun@" NOON ",turbidity=2");
+	struct spec_curve flat = make("sun@" NOON ",turbidity=2,tilt=0");
+	struct spec_curve sky = make("sky@" NOON ",turbidity=2");
+	struct spec_curve both = make("daylight@" NOON ",turbidity=2");
+	struct spec_clearsky_sun seen;
+	struct spec_curve clear;
+
+	(void)state;
+	expect_ok(spec_sunlight_sun(&sunlight, &seen, &error));
+	expect_ok(spec_clearsky_curve(&seen, &sunlight.atmosphere, NULL, &clear, &error));
+	assert_int_equal(sun.columns, 1);
+	assert_string_equal(sun.unit, "W m-2 nm-1");
+	assert_true(spec_curve_is_light(&sun));
+	for (size_t i = 0; i < sun.count; i++) {
+		double cosine = cos(seen.zenith_deg * 3.14159265358979323846 / 180);
+
+		near(sun.wavelength_nm[i], clear.wavelength_nm[i], 0, "wavelengths");
+		near(sun.value[i], clear.value[SPEC_CLEARSKY_DIRECT * sun.count + i], 0,
+			"direct");
+		near(flat.value[i], sun.value[i] * cosine, 1e-15, "on the ground");
+		near(sky.value[i], clear.value[SPEC_CLEARSKY_SKY * sun.count + i], 0,
+			"sky");
+		near(both.value[i], flat.value[i] + sky.value[i], 1e-15, "both");
+	}
+	spec_curve_free(&sun);
+	spec_curve_free(&flat);
+	spec_curve_free(&sky);
+	spec_curve_free(&both);
+	spec_curve_free(&clear);
+}
+
+/* Illuminance [lx] and correlated colour temperature [K] of what is called so. */
+static void
+see(const char *name, double *lx, double *cct_k)
+{
+	struct spec_curve curve = make(name), observer;
+	double xyz[3] = {0}, duv;
+
+	expect_ok(spec_lookup_curve("cie1931", &observer, &error));
+	for (size_t i = 0; i < observer.count; i++) /* by 1 nm */
+		for (size_t j = 0; j < 3; j++)
+			xyz[j] += observer.value[j * observer.count + i] *
+				  at(&curve, observer.wavelength_nm[i]);
+	*lx = 683 * xyz[1];
+	spec_temperature_find(&observer, xyz, cct_k, &duv);
+	spec_curve_free(&curve);
+	spec_curve_free(&observer);
+}
+
+/*
+ * A clear day in May: IES Lighting Handbook (10th edition, 2011, chapter 7) has 80 to 110 klx
+ * for a sun 55 to 60 degrees high; D55 to D65 are for sun with sky (CIE 15:2018); a blue sky
+ * is above 8000 K, and the sun at the horizon below 3000 K.
+ */
+static void
+a_day_has_its_brightness_and_colours(void **state)
+{
+	double lx, cct_k, higher_lx, other_k;
+
+	(void)state;
+	see("daylight@" NOON, &lx, &cct_k);
+	assert_true(lx > 80e3 && lx < 110e3);
+	assert_true(cct_k > 5500 && cct_k < 6500);
+	see("sky@" NOON ",turbidity=2", &lx, &cct_k);
+	assert_true(cct_k > 8000);
+	see("sun@" NOON, &lx, &cct_k);
+	assert_true(cct_k > 5000 && cct_k < 5700);
+	see("sun@" LEUVEN "2005-05-17T21:22+02:00", &lx, &cct_k);
+	assert_true(lx < 2e3 && cct_k < 3000);
+	/* Murkier air takes from the sun and makes it redder; a mountain does the opposite. */
+	see("sun@" NOON ",turbidity=2", &lx, &cct_k);
+	see("sun@" NOON ",turbidity=6", &higher_lx, &other_k);
+	assert_true(higher_lx < .8 * lx && other_k < cct_k - 200);
+	see("sun@50.88N 4.70E 4000m,2005-05-17T13:37+02:00,turbidity=2", &higher_lx,
+		&other_k);
+	assert_true(higher_lx > 1.02 * lx && other_k > cct_k + 100);
+}
+
+static void
+names_stand_where_spectra_do(void **state)
+{
+	static const char name[] = "sun@" NOON;
+	struct spec_spectrum spectrum;
+	struct spec_curve curve, direct = make(name);
+	char *path;
+
+	(void)state;
+	spec_lookup_set_maker(NULL);
+	assert_false(spec_lookup_is_computed(name));
+	assert_int_equal(spec_lookup_curve(name, &curve, &error), SPEC_EUSAGE);
+	spec_lookup_set_maker(&spec_sunlight_maker);
+	assert_true(spec_lookup_is_computed(name));
+	assert_true(spec_lookup_is_computed("daylight:6504K"));
+	assert_false(spec_lookup_is_computed("D65"));
+	assert_false(spec_lookup_is_computed("sunny@" NOON));
+	expect_ok(spec_lookup_light(name, &curve, &error));
+	near(at(&curve, 550), at(&direct, 550), 0, "as a light");
+	spec_curve_free(&curve);
+	expect_ok(spec_spectrum_named(name, &spectrum, &error));
+	assert_int_equal(spectrum.count, 122);
+	spec_spectrum_free(&spectrum);
+	assert_int_equal(spec_lookup_path(name, &path, &error), SPEC_EUSAGE);
+	assert_int_equal(
+		spec_lookup_curve("sun@" LEUVEN "12:00", &curve, &error), SPEC_EUSAGE);
+	assert_contains(error.message, "no time");
+	spec_lookup_set_maker(NULL);
+	spec_curve_free(&direct);
+}
+
+int
+main(void)
+{
+	const struct CMUnitTest tests[] = {
+		cmocka_unit_test(options_are_read),
+		cmocka_unit_test(faults_are_shown),
+		cmocka_unit_test(there_is_no_light_in_the_night),
+		cmocka_unit_test(parts_are_those_of_the_clear_sky),
+		cmocka_unit_test(a_day_has_its_brightness_and_colours),
+		cmocka_unit_test(names_stand_where_spectra_do),
+	};
+
+	if (!getenv("SPECTRA_PATH"))
+		setenv("SPECTRA_PATH", "spectra", 1);
+	return cmocka_run_group_tests(tests, NULL, NULL);
+}
