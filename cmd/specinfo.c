@@ -19,6 +19,7 @@
 #include "image/probe.h"
 #include "image/regions.h"
 #include "image/value.h"
+#include "place/almanac.h"
 #include "spectrum/lookup.h"
 #include "spectrum/spd.h"
 #include "spectrum/summary.h"
@@ -45,6 +46,12 @@ static const struct cli_option options[] = {
 	{0, "plot", "FILE",
 		"draw the curves, or what --probe and --patches measure, and\n"
 		"their places in the chromaticity diagram: .png, .svg, .pdf"},
+	{0, "sun", "PLACE|own",
+		"tell where the sun is and when it rises and sets at this\n"
+		"place and --time, or where and when each FILE was taken"},
+	{0, "time", "TIME", "ISO 8601 with an offset, or now"},
+	{0, "toward", "PLACE", "add bearing and distance of another place"},
+	{0, "air", "HPA,CELSIUS", "what bends the light (default: the standard's)"},
 	{'c', "check", NULL,
 		"list what is wrong with images, a line for each finding;\n"
 		"reads all pixels"},
@@ -69,6 +76,7 @@ struct job {
 	size_t probes, probe_room;
 	const char *patches, *observer, *illuminant, *plotted;
 	struct spec_plot plot;
+	struct spec_almanac_request almanac;
 	struct spec_regions regions;
 	struct spec_viewing viewing; /* once it is needed */
 	int seeing;
@@ -99,7 +107,11 @@ static enum spec_status
 take_option(struct job *job, const char *name, const char *value, struct spec_error *error)
 {
 	int known;
+	enum spec_status status =
+		spec_almanac_take(&job->almanac, name, value, &known, error);
 
+	if (known)
+		return status;
 	if (strcmp(name, "json") == 0)
 		job->json = 1;
 	else if (strcmp(name, "statistics") == 0)
@@ -166,14 +178,18 @@ parse(struct cli *cli, struct job *job, struct spec_error *error)
 		else
 			cli_check(cli, take_input(job, cli->value, error), error);
 	}
-	if (job->check + job->statistics + (job->probes > 0) + (job->patches != NULL) > 1)
+	if (job->check + job->statistics + (job->probes > 0) + (job->patches != NULL) +
+			job->almanac.asked >
+		1)
 		cli_usage(cli,
-			"--check, --probe, --patches and statistics exclude each other");
+			"--check, --probe, --patches, --sun and statistics exclude each other");
+	cli_check(cli, spec_almanac_settle(&job->almanac, job->inputs, error), error);
 	if (job->patches)
 		cli_check(
 			cli, spec_regions_parse(job->patches, &job->regions, error), error);
-	if (job->plotted && (job->check || job->statistics))
-		cli_usage(cli, "--plot has nothing to do with --check and statistics");
+	if (job->plotted && (job->check || job->statistics || job->almanac.asked))
+		cli_usage(
+			cli, "--plot has nothing to do with --check, --sun and statistics");
 	if (job->plotted)
 		cli_check(cli, spec_plot_open(job->plotted, &job->plot, error), error);
 	if (job->observer || job->illuminant || job->plotted)
@@ -416,16 +432,43 @@ probe_image(struct job *job, const char *path, struct spec_error *error)
 }
 
 static enum spec_status
+tell_sun(struct job *job, const char *path, struct spec_error *error)
+{
+	const char *name = strcmp(path, "-") == 0 ? "<stdin>" : path;
+	struct spec_almanac almanac;
+	enum spec_status status =
+		spec_almanac_find(&almanac, &job->almanac, path, &job->settings, error);
+
+	if (status != SPEC_OK)
+		return status;
+	separate(job);
+	name = job->almanac.own ? name : NULL;
+	if (job->json)
+		spec_almanac_json(&job->writer, name, &almanac);
+	else
+		spec_almanac_print(job->text.stream, name, &almanac);
+	return SPEC_OK;
+}
+
+static enum spec_status
 tell(struct job *job, const char *path, struct spec_error *error)
 {
-	int curve = spec_kind_is_curve(path);
+	int curve;
 
+	if (job->almanac.asked && !job->almanac.own)
+		return tell_sun(job, path, error);
+	curve = spec_kind_is_curve(path);
+	if (curve && job->almanac.own)
+		return spec_error_set(error, SPEC_EUSAGE,
+			"'%s' is a curve, and --sun own is for images", path);
 	if (curve && (job->check || job->probes > 0 || job->patches))
 		return spec_error_set(error, SPEC_EUSAGE,
 			"'%s' is a curve, and %s is for images", path,
 			job->check     ? "--check"
 			: job->patches ? "--patches"
 				       : "--probe");
+	if (job->almanac.own)
+		return tell_sun(job, path, error);
 	if (job->check)
 		return check_image(job, path, error);
 	if (job->probes > 0 || job->patches)

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 #include <erfa.h>
 #include <erfaextra.h>
@@ -106,6 +107,22 @@ take_zone(const char **at, struct spec_reading *reading)
 	return !**at && hours < 24 && minutes < 60;
 }
 
+/* The system's clock, in the zone of the environment. */
+static enum spec_status
+take_now(struct spec_instant *instant, struct spec_error *error)
+{
+	struct spec_reading reading;
+	struct tm local;
+	time_t now = time(NULL);
+
+	if (now == (time_t)-1 || !localtime_r(&now, &local))
+		return spec_error_set(error, SPEC_EIO, "the system does not tell the time");
+	reading =
+		(struct spec_reading){local.tm_year + 1900, local.tm_mon + 1, local.tm_mday,
+			local.tm_hour, local.tm_min, local.tm_sec, (int)local.tm_gmtoff};
+	return spec_instant_from_reading(&reading, instant, error);
+}
+
 enum spec_status
 spec_instant_parse(const char *text, struct spec_instant *instant, struct spec_error *error)
 {
@@ -113,6 +130,8 @@ spec_instant_parse(const char *text, struct spec_instant *instant, struct spec_e
 	const char *at = text;
 	enum spec_status status;
 
+	if (strcmp(text, "now") == 0)
+		return take_now(instant, error);
 	if (!take_date(&at, &reading))
 		return spec_error_set(error, SPEC_EUSAGE,
 			"'%s' is no time: write it as in 2003-10-17T12:30:30-07:00", text);

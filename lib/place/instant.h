@@ -36,7 +36,7 @@ struct spec_reading {
 /*
  * Reads "2003-10-17T12:30:30-07:00", the basic form "20031017T123030-0700", days of the
  * year "2003-290T19:30:30Z"; seconds, and their decimals after a point or comma, may be
- * missing, the zone may not: Z or an offset. Leap seconds are read where there was one.
+ * missing, the zone may not: Z or an offset. "now" is the system's time and zone. Leap seconds are read where there was one.
  * SPEC_EUSAGE says what is wrong; SPEC_ERANGE: years from 1900 to 2100 alone.
  */
 enum spec_status spec_instant_parse(

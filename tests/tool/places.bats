@@ -1,0 +1,150 @@
+#!/usr/bin/env bats
+# Places, times and the sun: specinfo --sun, and what files say of where and when.
+load common
+
+golden='39.742476 N 105.1786 W 1830.14 m'
+noonish=2003-10-17T12:30:30-07:00
+
+# at PLACE TIME FILTER: what specinfo --json tells, through jq.
+at() {
+  specinfo --json --sun "$1" --time "$2" | jq -r "$3"
+}
+
+# nearly GOT WANTED TOLERANCE
+nearly() {
+  awk -v got="$1" -v wanted="$2" -v tolerance="$3" \
+    'BEGIN { off = got - wanted; exit !(got ~ /[0-9]/ && off <= tolerance && -off <= tolerance) }' ||
+    complain "got $1 instead of $2 +- $3"
+}
+
+# Reda & Andreas 2003, table A5.1 and appendix A.4; 1.1" as the unit test explains.
+@test "the sun of the paper of the solar position algorithm" {
+  specinfo --json --sun "$golden" --time $noonish --air 820,11 >sun.json
+  nearly "$(jq .zenith_deg sun.json)" 50.127954 .00031
+  nearly "$(jq .zenith_refracted_deg sun.json)" 50.11162 .00031
+  nearly "$(jq .azimuth_deg sun.json)" 194.34024 .0004
+  nearly "$(jq .distance_au sun.json)" .9965422974 2e-7
+  nearly "$(jq .equation_of_time_min sun.json)" 14.638 .001
+  nearly "$(jq .antisolar.azimuth_deg sun.json)" 14.34024 .0004
+  nearly "$(jq .antisolar.elevation_deg sun.json)" -39.88838 .0004
+  # Kasten & Young 1989 at that zenith, by hand.
+  nearly "$(jq .airmass sun.json)" 1.5570 1e-4
+  nearly "$(jq .airmass_absolute sun.json)" 1.2600 1e-4
+  [ "$(jq -r '[.sunrise, .noon, .sunset] | join(" ")' sun.json)" = \
+    '2003-10-17T06:12:44-07:00 2003-10-17T11:46:05-07:00 2003-10-17T17:18:51-07:00' ]
+  [ "$(jq -r '[.utc, .day_of_year, .tai_utc_s, .leap_seconds] | join(" ")' sun.json)" = \
+    '2003-10-17T19:30:30.000Z 290 32 known' ]
+}
+
+@test "one place in every spelling" {
+  # shellcheck disable=SC1111 # marks of minutes and seconds, not quotes
+  for place in '39.742476 -105.1786 1830.14m' "39d44'32.9136\"N 105d10'42.96\"W 1.83014km" \
+    '105:10:42.96W, 39:44:32.9136N, 1830.14m' "39° 44′ 32.9136″ N, 105° 10′ 42.96″ W, 1830.14 m"; do
+    [ "$(at "$place" $noonish '.place.mgrs, .azimuth_deg')" = "$(at "$golden" $noonish '.place.mgrs, .azimuth_deg')" ]
+  done
+  nearly "$(at '13n 484698 4399190 1830.14m' $noonish .azimuth_deg)" 194.34024 .0005
+  nearly "$(at '13SDD8469799190 1830.14m' $noonish .azimuth_deg)" 194.34024 .0005
+}
+
+@test "for people" {
+  specinfo --sun "$golden" --time $noonish >sun.txt
+  grep -qx '  place         39.742476 -105.178600, 1830.14 m' sun.txt
+  grep -qx '  MGRS          13SDD8469799190' sun.txt
+  grep -qx '  UTC           2003-10-17T19:30:30Z, Julian date 2452930.312847' sun.txt
+  grep -q '^  sun           azimuth 194.34015, zenith 50.12792,' sun.txt
+  grep -q '(Saemundsson 1986; 81[0-9][.][0-9] hPa, 3.1 C)' sun.txt
+  grep -qx '  noon          2003-10-17T11:46:05-07:00, elevation 40.953 deg' sun.txt
+}
+
+# Karney 2013, table 2: 10000 km from 40 N, 0 E at 30 degrees.
+@test "the way to another place" {
+  specinfo --json --sun '40N 0E' --time $noonish --toward '41.79331020506 137.84490004377' >way.json
+  nearly "$(jq .toward.bearing_deg way.json)" 30 1e-9
+  nearly "$(jq .toward.distance_m way.json)" 10000000 1e-4
+  nearly "$(jq .toward.arrival_deg way.json)" 149.09016931807 1e-9
+  [ "$(jq '.toward.east_north_up_m | length' way.json)" = 3 ]
+}
+
+@test "polar day, polar night, the poles and the antimeridian" {
+  [ "$(at '71.17N 25.78E' 2026-06-20T12:00+02:00 '.day, .sunrise, .sunset' | xargs)" = 'polar day null null' ]
+  [ "$(at '71.17N 25.78E' 2026-12-20T12:00+01:00 '.day, .sunrise, .airmass' | xargs)" = 'polar night null null' ]
+  specinfo --sun '71.17N 25.78E' --time 2026-12-20T12:00+01:00 >night.txt
+  grep -qx '  sunrise       none: polar night' night.txt
+  grep -qx '  air mass      none: the sun is below the horizon' night.txt
+  # The sun stands as high over the pole as north of the equator.
+  nearly "$(at '90N 0E' 2026-06-20T12:00Z '.elevation_deg - .declination_deg')" 0 1e-4
+  nearly "$(at '90S 0E' 2026-06-20T12:00Z '.elevation_deg + .declination_deg')" 0 1e-4
+  nearly "$(at '10N 180E' 2026-05-01T12:00+12:00 .zenith_deg)" "$(at '10N 180W' 2026-05-01T00:00Z .zenith_deg)" 1e-9
+}
+
+@test "ends of the table of leap seconds" {
+  [ "$(at '40N 0E' 2016-12-31T23:59:60Z '.utc, .tai_utc_s, .leap_seconds' | xargs)" = '2016-12-31T23:59:60.000Z 36 known' ]
+  [ "$(at '40N 0E' 2099-01-01T12:00Z .leap_seconds)" = 'beyond the table' ]
+  [ "$(at '40N 0E' 1920-01-01T12:00Z .leap_seconds)" = 'before UTC' ]
+  specinfo --sun '40N 0E' --time 2099-01-01T12:00Z | grep -q "too old to know of this year's"
+}
+
+@test "now is a time" {
+  TZ=NPT-5:45 at '40N 0E' now .time | grep -qE '^20[0-9]{2}-.*T.*\+05:45$'
+}
+
+# trouble TEXT COMMAND...: it fails cleanly, and says that.
+trouble() {
+  local text=$1
+  shift
+  fails_cleanly "$@"
+  [[ $stderr = *"$text"* ]] || complain "not '$text' but: $stderr"
+}
+
+@test "no place, no time, nonsense" {
+  trouble "--sun needs a --time" specinfo --sun "$golden"
+  trouble "--time, --toward and --air are for --sun" specinfo --time $noonish
+  trouble "'nowhere' is no place" specinfo --sun nowhere --time $noonish
+  trouble "'91N 5E' is no place: Latitude 91d not in [-90d, 90d]" specinfo --sun '91N 5E' --time $noonish
+  trouble "is half a place" specinfo --sun 39.74 --time $noonish
+  trouble "is no place" specinfo --sun '' --time $noonish
+  trouble "the altitude" specinfo --sun '40 50 900km' --time $noonish
+  trouble "does not say in which zone" specinfo --sun "$golden" --time 2003-10-17T12:30:30
+  trouble "has no time of day" specinfo --sun "$golden" --time 2003-10-17
+  trouble "the calendar has no such day" specinfo --sun "$golden" --time 2003-02-29T12:00Z
+  trouble "that was no leap second" specinfo --sun "$golden" --time 2003-12-31T23:59:60Z
+  trouble "known from 1900 to 2100, not in 1850" specinfo --sun "$golden" --time 1850-02-28T12:00Z
+  trouble "is not PRESSURE,TEMPERATURE" specinfo --sun "$golden" --time $noonish --air 820
+  trouble "the air's pressure" specinfo --sun "$golden" --time $noonish --air -1,10
+  trouble "is no place" specinfo --sun "$golden" --time $noonish --toward 'over there'
+  trouble "tells of no file" specinfo --sun "$golden" --time $noonish a.exr
+  trouble "exclude each other" specinfo --sun "$golden" --time $noonish --check
+  trouble "nothing to do with" specinfo --sun "$golden" --time $noonish --plot a.png
+  trouble "no --time" specinfo --sun own --time $noonish a.exr
+}
+
+@test "without its plugin one line says so" {
+  mkdir -p bin lib/spectools
+  cp "$BIN/specinfo" bin
+  trouble 'this needs the plugin places.so, which cannot be loaded' bin/specinfo --sun "$golden" --time $noonish
+}
+
+@test "the sun of a file's own place and time" {
+  spectral a.exr --number longitude=-105.1786 --number latitude=39.742476 --number altitude=1830.14 \
+    --number utcOffset=25200 --attribute 'capDate=2003:10:17 12:30:30'
+  specinfo --json --sun own a.exr >own.json
+  [ "$(jq -r '.file, .time' own.json | xargs)" = 'a.exr 2003-10-17T12:30:30.000-07:00' ]
+  nearly "$(jq .azimuth_deg own.json)" 194.34024 .0005
+  specinfo --json --sun own <a.exr | jq -e '.file == "<stdin>"' >/dev/null
+  [ "$(specinfo --json --sun own a.exr a.exr | jq length)" = 2 ]
+  specinfo --sun own a.exr | head -n 1 | grep -qx a.exr
+}
+
+@test "a file that does not say where or when" {
+  spectral a.exr
+  trouble 'a.exr: does not say where it was taken' specinfo --sun own a.exr
+  spectral a.exr --number longitude=5 --number latitude=50
+  trouble 'a.exr: does not say when it was taken' specinfo --sun own a.exr
+  spectral a.exr --number longitude=5 --number latitude=50 --attribute 'capDate=2003:10:17 12:30:30'
+  trouble 'a.exr: does not say in which zone it was taken' specinfo --sun own a.exr
+  spectral a.exr --number longitude=5 --number latitude=95 --attribute 'capDate=2003:10:17 12:30:30'
+  trouble 'a.exr: a latitude is from -90 to 90 degrees, not 95' specinfo --sun own a.exr
+  spectral a.exr --number longitude=5 --number latitude=50 --attribute 'capDate=yesterday'
+  trouble "a.exr: its capDate, 'yesterday', is not YYYY:MM:DD hh:mm:ss" specinfo --sun own a.exr
+  trouble "'D65' is a curve, and --sun own is for images" specinfo --sun own D65
+}
