@@ -354,6 +354,34 @@ parse_function(struct parser *parser, const struct spec_function *function,
 	return status;
 }
 
+/*
+ * Whether a word is "b750", of one image its value at that wavelength [nm]; digits behind a point
+ * belong to it.
+ */
+static int
+take_band(struct parser *parser, struct word word, double *wavelength_nm)
+{
+	size_t length;
+
+	if (parser->images != 1 || word.length < 2 || word.text[0] != 'b' ||
+		strspn(word.text + 1, DIGITS) < word.length - 1)
+		return 0;
+	length = spec_number_scan(word.text + 1, '.', wavelength_nm);
+	parser->at = word.at + 1 + length;
+	skip_blanks(parser);
+	return length > 0;
+}
+
+static enum spec_status
+parse_band(struct parser *parser, struct word word, double wavelength_nm, size_t *index)
+{
+	struct spec_node node = {.at = word.at, .number = wavelength_nm};
+	enum spec_status status = add_node(parser, &node, &node.operand[0]);
+
+	node.kind = SPEC_NODE_AT;
+	return status == SPEC_OK ? add_node(parser, &node, index) : status;
+}
+
 static enum spec_status
 parse_name(struct parser *parser, size_t *index)
 {
@@ -361,6 +389,7 @@ parse_name(struct parser *parser, size_t *index)
 	struct spec_node node = {.at = word.at, .kind = SPEC_NODE_PLACE};
 	const struct spec_function *function = find_function(word);
 	const struct variable *variable = find_variable(parser, word);
+	double wavelength_nm;
 	size_t image;
 
 	skip_blanks(parser);
@@ -382,6 +411,8 @@ parse_name(struct parser *parser, size_t *index)
 		if (is_word(word, places[i].name))
 			return add_leaf(parser, &node, index);
 	}
+	if (take_band(parser, word, &wavelength_nm))
+		return parse_band(parser, word, wavelength_nm, index);
 	return fail_unknown(parser, word);
 }
 

@@ -11,14 +11,15 @@
  *   product    = sign { ( "*" | "/" ) sign }
  *   sign       = [ "-" | "+" | "!" ] sign | power
  *   power      = value [ "^" sign ]
- *   value      = number [ "nm" | "um" ] | "(" choice ")" | name | image
+ *   value      = number [ "nm" | "um" ] | "(" choice ")" | name | image | "b" digits
  *              | function "(" choice { "," choice } ")"
  *   image      = ( letter | "image" whole ) [ "(" choice ")" | "." channel ]
  *   channel    = letters, digits, "_" and "." | "(" '"' text '"' ")"
  *
  * Images are a to w, or image1, image2, ...: the value of an image in the band that is worked
  * on; with a wavelength in nm in parentheses, its value there; with a point, that of a channel
- * by its name, in whose quotes \" and \\ are " and \. Other names are
+ * by its name, in whose quotes \" and \\ are " and \. Of one image alone, b750 is a(750), and
+ * b532.5 is a(532.5), as long as no name is assigned so. Other names are
  *   nm                   wavelength of the band that is worked on
  *   stokes               its component, 0 to 3
  *   x, y                 pixel, from the data window's corner

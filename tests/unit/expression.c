@@ -17,6 +17,8 @@ static const double wavelengths[BANDS] = {400, 500, 600, 700};
 static struct spec_image image[IMAGES];
 static float sample[IMAGES][BANDS + 3][WIDTH];
 
+static size_t given = IMAGES; /* that an expression may name */
+
 static double
 value_of(size_t number, size_t channel, size_t x)
 {
@@ -94,7 +96,7 @@ make_program(struct spec_program *program, const char *text, struct spec_error *
 		.width = WIDTH,
 		.height = HEIGHT};
 	struct spec_expression expression;
-	enum spec_status status = spec_expression_parse(text, IMAGES, &expression, error);
+	enum spec_status status = spec_expression_parse(text, given, &expression, error);
 
 	if (status != SPEC_OK)
 		return status;
@@ -412,6 +414,31 @@ test_limits(void **state)
 	IS(text, b - (MOST - 2) * a);
 }
 
+/* Of one image alone a band has a short name. */
+static void
+test_bands(void **state)
+{
+	double part = (530.5 - 500) / 100;
+
+	(void)state;
+	given = 1;
+	IS("b400", (float)value_of(0, 0, (size_t)x));
+	IS("(b700-b500)/(b700+b500)",
+		((float)value_of(0, 3, (size_t)x) -
+			(double)(float)value_of(0, 1, (size_t)x)) /
+			((float)value_of(0, 3, (size_t)x) +
+				(double)(float)value_of(0, 1, (size_t)x)));
+	IS("b530.5 ", (1 - part) * (float)value_of(0, 1, (size_t)x) +
+			      part * (float)value_of(0, 2, (size_t)x));
+	IS("b7 = 3; b7 * b7", 9);
+	refused("b400 + b900", "900 nm is outside the bands of one.exr, 400..700 nm", 7);
+	refused("b + 1", "there is no image 'b': 1 is given", 0);
+	refused("1 + b4x", "'b4x' is not known", 4);
+	refused("b400 b500", "expected an operator or the end", 5);
+	given = IMAGES;
+	refused("a + b400", "'b400' is not known", 4);
+}
+
 int
 main(void)
 {
@@ -424,6 +451,7 @@ main(void)
 		cmocka_unit_test(test_wavelengths),
 		cmocka_unit_test(test_errors),
 		cmocka_unit_test(test_limits),
+		cmocka_unit_test(test_bands),
 	};
 
 	return cmocka_run_group_tests(tests, make_images, clear_images);
