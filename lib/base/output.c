@@ -448,6 +448,24 @@ spec_output_scratch(int *fd, struct spec_error *error)
 }
 
 enum spec_status
+spec_output_read(int fd, void *data, size_t size, int64_t offset, struct spec_error *error)
+{
+	for (size_t done = 0; done < size;) {
+		ssize_t got =
+			pread(fd, (char *)data + done, size - done, offset + (int64_t)done);
+
+		if (got < 0 && errno == EINTR)
+			continue;
+		if (got <= 0)
+			return spec_error_set(error, SPEC_EIO,
+				"unable to read a temporary file: %s",
+				got < 0 ? strerror(errno) : "it has become shorter");
+		done += (size_t)got;
+	}
+	return SPEC_OK;
+}
+
+enum spec_status
 spec_output_append(struct spec_output *output, int fd, struct spec_error *error)
 {
 	char *buffer = spec_memory_new(COPY_BYTES, 1, "bytes", error);

@@ -62,4 +62,8 @@ enum spec_status spec_output_append(
 /* A nameless temporary file in TMPDIR, else /tmp: its descriptor in *fd. */
 enum spec_status spec_output_scratch(int *fd, struct spec_error *error);
 
+/* Reads back all the bytes at an offset of one; from any thread. */
+enum spec_status spec_output_read(
+	int fd, void *data, size_t size, int64_t offset, struct spec_error *error);
+
 #endif

@@ -1,6 +1,5 @@
 #include "image/meter.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdatomic.h>
 #include <stdlib.h>
@@ -213,24 +212,6 @@ struct again {
 	struct spec_turnstile turnstile;
 };
 
-static enum spec_status
-read_rows(int fd, void *data, size_t size, long long offset, struct spec_error *error)
-{
-	for (size_t done = 0; done < size;) {
-		ssize_t got = pread(
-			fd, (char *)data + done, size - done, offset + (long long)done);
-
-		if (got < 0 && errno == EINTR)
-			continue;
-		if (got <= 0)
-			return spec_error_set(error, SPEC_EIO,
-				"unable to read a temporary file: %s",
-				got < 0 ? strerror(errno) : "it has become shorter");
-		done += (size_t)got;
-	}
-	return SPEC_OK;
-}
-
 /* One block, from linear rows to samples, or to what there is to be measured in map. */
 static void
 work_on(const struct again *again, float *linear, unsigned char *samples, long long first,
@@ -291,7 +272,7 @@ take_blocks(struct again *again, float *linear, unsigned char *samples,
 			break;
 		if ((long long)count > meter->rows - first)
 			count = (size_t)(meter->rows - first);
-		status = read_rows(meter->scratch.fd, linear, count * row_bytes,
+		status = spec_output_read(meter->scratch.fd, linear, count * row_bytes,
 			first * (long long)row_bytes, error);
 		if (status == SPEC_OK)
 			work_on(again, linear, samples, first, count, &map);
