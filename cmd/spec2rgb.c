@@ -7,7 +7,9 @@
 #include "cli/options.h"
 #include "cli/progress.h"
 #include "colour/observer.h"
+#include "compare/falsecolour.h"
 #include "image/develop.h"
+#include "image/layer.h"
 #include "image/level.h"
 #include "image/separate.h"
 #include "spectrum/lookup.h"
@@ -44,6 +46,19 @@ static const struct cli_option options[] = {
 	{0, "bits", "8|16|32", "bits per sample (default: as the format has them)"},
 	{0, "model", "hsv|hsl|yuv|cmyk",
 		"the components of a colour model, as an OpenEXR image"},
+	{0, "layer", "NAME",
+		"show this layer: film1.mirror, through; N, uv and the like as\n"
+		"codes; any channel in false colours"},
+	{'b', "band", "WAVELENGTH", "false colours: of this band's values"},
+	{0, "expr", "EXPRESSION", "of a number: '(b750-b670)/(b750+b670)'"},
+	{0, "stokes", "dop|dolp|docp|aop|ellipticity",
+		"of what the Stokes components tell of polarisation"},
+	{0, "range", "A..B|auto",
+		"the numbers that the map's ends stand for (default: the least\n"
+		"and the largest; of --stokes, directions and uv theirs)"},
+	{0, "colour-map", "NAME",
+		"viridis, grey, cool-warm or hue (default: viridis; of angles hue)"},
+	{0, "legend", NULL, "add the map and its numbers below the picture"},
 	{0},
 };
 
@@ -68,6 +83,11 @@ struct job {
 	const char *level_option; /* that gave it, or null */
 	int error;                /* of the level is printed */
 	int bits;
+	const char *layer;            /* or null */
+	struct spec_view_setup shown; /* what a false colour is of */
+	struct spec_falsecolour_setup painted;
+	int ranged;                                    /* its range was given */
+	const char *of_colours, *of_scales, *of_bands; /* such an option, or null */
 	struct spec_settings settings;
 };
 
@@ -92,17 +112,15 @@ take_level(struct job *job, const char *name, const char *value, struct spec_err
 					 : spec_level_parse(value, &job->level, error);
 }
 
+/* The options that say how colours are seen. */
 static enum spec_status
-take_option(void *state, const char *name, const char *value, struct spec_error *error)
+take_colours(struct job *job, const char *name, const char *value, int *known,
+	struct spec_error *error)
 {
-	struct job *job = state;
 	enum spec_status status = SPEC_OK;
-	long long bits;
-	int known;
 
-	if (strcmp(name, "observer") == 0) {
-		job->observer = value;
-	} else if (strcmp(name, "illuminant") == 0) {
+	*known = 1;
+	if (strcmp(name, "illuminant") == 0) {
 		job->illuminant = value;
 	} else if (strcmp(name, "adapt") == 0) {
 		job->adapt = value;
@@ -124,17 +142,96 @@ take_option(void *state, const char *name, const char *value, struct spec_error 
 		status = take_level(job, name, value, error);
 	} else if (strcmp(name, "error") == 0) {
 		job->error = 1;
-	} else if (strcmp(name, "format") == 0) {
-		job->format = value;
 	} else if (strcmp(name, "model") == 0) {
 		job->model = spec_model_find(value, error);
 		status = job->model ? SPEC_OK : SPEC_EUSAGE;
+	} else {
+		*known = 0;
+	}
+	if (*known)
+		job->of_colours = name;
+	return status;
+}
+
+static enum spec_status
+take_range(struct job *job, const char *value, struct spec_error *error)
+{
+	struct spec_falsecolour_setup *painted = &job->painted;
+	enum spec_status status;
+
+	job->ranged = 1;
+	painted->low = painted->high = 0;
+	if (strcmp(value, "auto") == 0)
+		return SPEC_OK;
+	status = spec_number_parse_range(value, &painted->low, &painted->high, error);
+	if (status == SPEC_OK && painted->low == painted->high)
+		status = spec_error_set(
+			error, SPEC_EUSAGE, "the range '%.200s' has no width", value);
+	return status;
+}
+
+/* Those of false colours. */
+static enum spec_status
+take_false(struct job *job, const char *name, const char *value, int *known,
+	struct spec_error *error)
+{
+	enum spec_status status = SPEC_OK;
+	int scale = 0;
+
+	*known = 1;
+	if (strcmp(name, "band") == 0) {
+		status = spec_number_parse_length(
+			value, "the wavelength", &job->shown.band_nm, error);
+	} else if (strcmp(name, "expr") == 0) {
+		job->shown.expression = value;
+	} else if (strcmp(name, "stokes") == 0) {
+		job->shown.polarisation = spec_polarisation_find(value, error);
+		status = job->shown.polarisation ? SPEC_OK : SPEC_EUSAGE;
+	} else {
+		scale = 1;
+		if (strcmp(name, "range") == 0)
+			status = take_range(job, value, error);
+		else if (strcmp(name, "legend") == 0)
+			job->painted.legend = 1;
+		else if (strcmp(name, "colour-map") == 0)
+			status = (job->painted.map = spec_colourmap_find(value, error))
+					 ? SPEC_OK
+					 : SPEC_EUSAGE;
+		else
+			*known = 0;
+	}
+	if (*known && scale)
+		job->of_scales = name;
+	else if (*known)
+		job->of_bands = name;
+	return status;
+}
+
+static enum spec_status
+take_option(void *state, const char *name, const char *value, struct spec_error *error)
+{
+	struct job *job = state;
+	enum spec_status status = SPEC_OK;
+	long long bits;
+	int known;
+
+	if (strcmp(name, "observer") == 0) {
+		job->observer = value;
+	} else if (strcmp(name, "layer") == 0) {
+		job->layer = value;
+	} else if (strcmp(name, "format") == 0) {
+		job->format = value;
 	} else if (strcmp(name, "bits") == 0) {
 		status = spec_number_parse_whole(
 			value, 8, 32, "the number of bits", &bits, error);
 		job->bits = status == SPEC_OK ? (int)bits : 0;
 	} else {
-		status = spec_settings_take(&job->settings, name, value, &known, error);
+		status = take_colours(job, name, value, &known, error);
+		if (!known)
+			status = take_false(job, name, value, &known, error);
+		if (!known)
+			status = spec_settings_take(
+				&job->settings, name, value, &known, error);
 	}
 	return status;
 }
@@ -160,6 +257,11 @@ parse(struct cli *cli, struct job *job)
 	if (job->settings.reread && job->look.metering != SPEC_METERING_NONE)
 		cli_usage(
 			cli, "--lod METRIC:X and --error need a given exposure, not auto");
+	if (job->shown.expression && job->shown.polarisation)
+		cli_usage(cli, "--expr and --stokes exclude each other");
+	if (job->of_bands && job->of_colours)
+		cli_usage(cli, "--%s makes false colours, which --%s does not change",
+			job->of_bands, job->of_colours);
 	job->look.space = &job->space;
 	if (job->transfer)
 		job->space.transfer = job->transfer;
@@ -168,7 +270,8 @@ parse(struct cli *cli, struct job *job)
 /* The sums that the options ask for, in a space. */
 static enum spec_status
 plan(const struct job *job, const struct spec_reader *reader,
-	const struct spec_space *space, struct spec_rgb *rgb, struct spec_error *error)
+	const struct spec_image *image, const struct spec_space *space,
+	struct spec_rgb *rgb, struct spec_error *error)
 {
 	struct spec_curve observer = {0}, illuminant = {0};
 	struct spec_rgb_setup setup = {.observer = &observer,
@@ -182,7 +285,7 @@ plan(const struct job *job, const struct spec_reader *reader,
 	if (status == SPEC_OK)
 		status = spec_adaptation_find(job->adapt, &setup.adaptation, error);
 	if (status == SPEC_OK) {
-		status = spec_rgb_plan(rgb, spec_reader_image(reader), &setup, error);
+		status = spec_rgb_plan(rgb, image, &setup, error);
 		if (status != SPEC_OK)
 			spec_error_prefix(error, "%s", spec_reader_name(reader));
 	}
@@ -193,16 +296,17 @@ plan(const struct job *job, const struct spec_reader *reader,
 
 /* Leaves bands out as the options ask for; *report: what --error prints. */
 static enum spec_status
-leave_out(const struct job *job, struct spec_reader *reader, struct spec_rgb *rgb,
-	struct spec_level_report *report, struct spec_error *error)
+leave_out(const struct job *job, struct spec_reader *reader, const struct spec_image *image,
+	struct spec_rgb *rgb, struct spec_level_report *report, struct spec_error *error)
 {
 	struct spec_rgb seen = {0};
 	enum spec_status status = SPEC_OK;
 
 	if (job->settings.reread)
-		status = plan(job, reader, spec_space_find("xyz", error), &seen, error);
+		status = plan(
+			job, reader, image, spec_space_find("xyz", error), &seen, error);
 	if (status == SPEC_OK)
-		status = spec_level_apply(&job->level, reader, &seen, rgb,
+		status = spec_level_apply(&job->level, reader, image, &seen, rgb,
 			job->error ? report : NULL, &job->settings, error);
 	spec_rgb_free(&seen);
 	return status;
@@ -233,19 +337,35 @@ print_error(const struct spec_level_report *report)
 }
 
 static void
-warn(const struct cli *cli, const struct job *job, const char *name,
-	const struct spec_rgb *rgb, const struct spec_develop *develop)
+warn_nonfinite(const struct cli *cli, const struct job *job, const char *name,
+	long long count, int x, int y)
 {
-	if (job->settings.quiet)
-		return;
-	if (rgb->outside > NOTICEABLE)
-		cli_warn(cli, "%s: %.1f %% of the luminance lies outside its bands", name,
-			100 * rgb->outside);
-	if (develop->nonfinite > 0)
-		cli_warn(cli, "%s: %lld %s not finite, the first at %d,%d", name,
-			develop->nonfinite,
-			develop->nonfinite == 1 ? "pixel is" : "pixels are",
-			develop->first_x, develop->first_y);
+	if (!job->settings.quiet && count > 0)
+		cli_warn(cli, "%s: %lld %s not finite, the first at %d,%d", name, count,
+			count == 1 ? "pixel is" : "pixels are", x, y);
+}
+
+static enum spec_status
+choose_kind(const struct job *job, struct spec_picture_kind *kind, struct spec_error *error)
+{
+	char wanted[32];
+
+	/* A format is chosen by a suffix; --format is one without a name before it. */
+	snprintf(wanted, sizeof wanted, "picture.%s", job->format ? job->format : "");
+	return spec_picture_choose(
+		job->format ? wanted : job->settings.output, job->bits, kind, error);
+}
+
+/* Ends a picture that was begun: a file of it is there, or what was there before. */
+static enum spec_status
+end_picture(struct spec_picture *picture, struct spec_output *output,
+	enum spec_status status, struct spec_error *error)
+{
+	spec_picture_close(picture);
+	if (status == SPEC_OK)
+		return spec_output_commit(output, error);
+	spec_output_abandon(output);
+	return status;
 }
 
 static enum spec_status
@@ -256,13 +376,8 @@ develop(struct job *job, struct spec_reader *reader, const struct spec_rgb *rgb,
 	struct spec_picture_kind kind;
 	struct spec_picture *picture = NULL;
 	struct spec_output output;
-	char wanted[32];
-	enum spec_status status;
+	enum spec_status status = choose_kind(job, &kind, error);
 
-	/* A format is chosen by a suffix; --format is one without a name before it. */
-	snprintf(wanted, sizeof wanted, "picture.%s", job->format ? job->format : "");
-	status = spec_picture_choose(
-		job->format ? wanted : job->settings.output, job->bits, &kind, error);
 	if (status == SPEC_OK && job->transfer && job->transfer != &spec_transfer_linear &&
 		kind.sample == SPEC_PICTURE_FLOAT)
 		status = spec_error_set(error, SPEC_EUSAGE,
@@ -276,11 +391,146 @@ develop(struct job *job, struct spec_reader *reader, const struct spec_rgb *rgb,
 	if (status == SPEC_OK)
 		status = spec_develop_run(result, reader, rgb, &job->look, picture,
 			kind.sample, &job->settings, error);
-	spec_picture_close(picture);
+	return end_picture(picture, &output, status, error);
+}
+
+static enum spec_status
+paint(struct job *job, struct spec_reader *reader, struct spec_falsecolour *result,
+	struct spec_error *error)
+{
+	struct spec_falsecolour_setup *painted = &job->painted;
+	struct spec_picture_kind kind;
+	struct spec_picture *picture = NULL;
+	struct spec_output output;
+	size_t width, height;
+	enum spec_status status = choose_kind(job, &kind, error);
+
 	if (status == SPEC_OK)
-		return spec_output_commit(&output, error);
-	spec_output_abandon(&output);
-	return status;
+		status = spec_output_open(&output, job->settings.output, error);
+	if (status != SPEC_OK)
+		return status;
+	spec_falsecolour_size(painted, spec_reader_image(reader), &width, &height);
+	/* Components of vectors are no light. */
+	status = spec_picture_open(&picture, &kind, &output, width, height,
+		painted->view->numbers == 1 ? spec_space_find("srgb", NULL) : NULL, error);
+	if (status == SPEC_OK)
+		status = spec_falsecolour_run(result, painted, reader, picture, kind.sample,
+			&job->settings, error);
+	return end_picture(picture, &output, status, error);
+}
+
+/* What is the same in all pixels of a false colour. */
+static enum spec_status
+prepare(struct job *job, const struct spec_image *image, const char *name,
+	struct spec_view *view, struct spec_error *error)
+{
+	struct spec_falsecolour_setup *painted = &job->painted;
+	struct spec_curve observer = {0};
+	enum spec_status status = spec_observer_load(job->observer, &observer, error);
+
+	job->shown.observer = &observer;
+	if (status == SPEC_OK)
+		status = spec_view_make(view, image, name, &job->shown, error);
+	spec_curve_free(&observer);
+	if (status != SPEC_OK)
+		return status;
+	if (view->numbers > 1 && (painted->legend || painted->map))
+		return spec_error_set(error, SPEC_EUSAGE,
+			"%s: '%s' has several numbers in each pixel: they have no colour map and no legend",
+			name, job->layer);
+	painted->view = view;
+	if (!job->ranged) {
+		painted->low = view->low;
+		painted->high = view->high;
+	}
+	if (!painted->map)
+		painted->map = spec_colourmap_find(view->map, error);
+	return painted->map ? SPEC_OK : SPEC_EUSAGE;
+}
+
+static void
+show_false(struct cli *cli, struct job *job, struct spec_reader *reader,
+	const struct spec_image *image, struct cli_progress *progress)
+{
+	const char *name = spec_reader_name(reader);
+	struct spec_error error = {0};
+	struct spec_falsecolour seen = {0};
+	struct spec_view view = {0};
+	enum spec_status status = prepare(job, image, name, &view, &error);
+
+	cli_check(cli, status, &error);
+	status = paint(job, reader, &seen, &error);
+	cli_progress_end(progress);
+	cli_check(cli, status, &error);
+	warn_nonfinite(cli, job, name, seen.nonfinite, seen.first_x, seen.first_y);
+	spec_view_free(&view);
+}
+
+static void
+show_colours(struct cli *cli, struct job *job, struct spec_reader *reader,
+	const struct spec_image *image, int argc, char **argv,
+	struct cli_progress *progress)
+{
+	const char *name = spec_reader_name(reader);
+	struct spec_error error = {0};
+	struct spec_rgb rgb = {0};
+	struct spec_develop seen = {0};
+	struct spec_level_report report = {0};
+	enum spec_status status = plan(job, reader, image, &job->space, &rgb, &error);
+
+	if (status == SPEC_OK)
+		status = leave_out(job, reader, image, &rgb, &report, &error);
+	if (status != SPEC_OK)
+		cli_progress_end(progress);
+	cli_check(cli, status, &error);
+	status = job->model ? spec_separate_run(&seen, reader, &rgb, job->model,
+				      &job->settings, argc, argv, &error)
+			    : develop(job, reader, &rgb, &seen, &error);
+	cli_progress_end(progress);
+	cli_check(cli, status, &error);
+	if (!job->settings.quiet && rgb.outside > NOTICEABLE)
+		cli_warn(cli, "%s: %.1f %% of the luminance lies outside its bands", name,
+			100 * rgb.outside);
+	warn_nonfinite(cli, job, name, seen.nonfinite, seen.first_x, seen.first_y);
+	if (job->error)
+		print_error(&report);
+	spec_rgb_free(&rgb);
+}
+
+/* The image that is shown: the file's, or a layer of it. Returns whether in false colours. */
+static int
+choose(struct cli *cli, struct job *job, const struct spec_reader *reader,
+	struct spec_image *chosen, struct spec_layer *layer,
+	const struct spec_image **image)
+{
+	struct spec_error error = {0};
+
+	*image = spec_reader_image(reader);
+	layer->kind = SPEC_LAYER_BANDS;
+	if (job->layer) {
+		enum spec_status status = spec_layer_find(layer, *image,
+			spec_reader_name(reader), job->layer, chosen, &error);
+
+		cli_check(cli, status, &error);
+		if (layer->kind == SPEC_LAYER_BANDS)
+			*image = chosen;
+		else if (job->of_bands)
+			cli_usage(cli, "--%s is for bands, and the layer '%s' has none",
+				job->of_bands, job->layer);
+		else if (job->of_colours)
+			cli_usage(cli,
+				"the layer '%s' is no light: --%s does not go with it",
+				job->layer, job->of_colours);
+		else
+			job->shown.layer = layer;
+	}
+	if (job->of_bands || job->shown.layer)
+		return 1;
+	if (job->of_scales)
+		cli_usage(cli,
+			"--%s is for false colours: --band, --expr, --stokes, or --layer of a channel",
+			job->of_scales);
+	return 0;
 }
 
 int
@@ -292,9 +542,9 @@ main(int argc, char **argv)
 		.space = *spec_space_find("srgb", NULL)};
 	struct spec_error error = {0};
 	struct spec_reader *reader = NULL;
-	struct spec_rgb rgb = {0};
-	struct spec_level_report report = {0};
-	struct spec_develop seen = {0};
+	struct spec_image chosen = {0};
+	struct spec_layer layer;
+	const struct spec_image *image;
 	struct cli_progress progress;
 	enum spec_status status;
 	struct cli cli;
@@ -307,22 +557,11 @@ main(int argc, char **argv)
 
 	status = spec_reader_open(&reader, job.input, &job.settings, &error);
 	cli_check(&cli, status, &error);
-	status = plan(&job, reader, &job.space, &rgb, &error);
-	cli_check(&cli, status, &error);
-	status = leave_out(&job, reader, &rgb, &report, &error);
-	if (status != SPEC_OK)
-		cli_progress_end(&progress);
-	cli_check(&cli, status, &error);
-
-	status = job.model ? spec_separate_run(&seen, reader, &rgb, job.model,
-				     &job.settings, argc, argv, &error)
-			   : develop(&job, reader, &rgb, &seen, &error);
-	cli_progress_end(&progress);
-	cli_check(&cli, status, &error);
-	warn(&cli, &job, spec_reader_name(reader), &rgb, &seen);
-	if (job.error)
-		print_error(&report);
-	spec_rgb_free(&rgb);
+	if (choose(&cli, &job, reader, &chosen, &layer, &image))
+		show_false(&cli, &job, reader, image, &progress);
+	else
+		show_colours(&cli, &job, reader, image, argc, argv, &progress);
+	spec_image_clear(&chosen);
 	spec_reader_close(reader);
 	return 0;
 }

@@ -22,7 +22,7 @@ legend_of(const struct spec_heatmap *heatmap, double most, char label[64])
 	snprintf(label, 64, "%s %s", spec_metric_map_name(heatmap->map),
 		spec_metric_map_unit(heatmap->map));
 	return (struct spec_legend){spec_colourmap_find("viridis", NULL), falls ? 1 : 0,
-		falls ? 1 - most : most, label};
+		falls ? 1 - most : most, label, 0};
 }
 
 /* What the scale shows: 0 is the same. */
@@ -149,8 +149,7 @@ spec_heatmap_write(const char *path, const struct spec_images *result,
 	struct spec_legend legend = legend_of(heatmap, most, label);
 	struct spec_canvas canvas;
 	enum spec_status status = spec_canvas_open(&canvas, width,
-		spec_window_height(&result->region) + spec_legend_height(&legend, width),
-		error);
+		spec_window_height(&result->region) + spec_legend_height(&legend), error);
 
 	if (status != SPEC_OK)
 		return status;
@@ -175,8 +174,7 @@ spec_heatmap_side_by_side(const char *path, const struct spec_images *result,
 
 	if (status == SPEC_OK)
 		status = spec_canvas_open(&canvas, all,
-			spec_window_height(&result->region) +
-				spec_legend_height(&legend, all),
+			spec_window_height(&result->region) + spec_legend_height(&legend),
 			error);
 	if (status != SPEC_OK)
 		return status;

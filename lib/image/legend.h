@@ -12,15 +12,16 @@ struct spec_legend {
 	const struct spec_colourmap *map;
 	double low, high;  /* what its two ends stand for */
 	const char *label; /* such as a name and a unit */
+	int label_below;   /* it has a line of its own, as long ones need */
 };
 
-/* Pixels of its height below a picture of that width, at least LEAST_WIDTH. */
-size_t spec_legend_height(const struct spec_legend *legend, size_t width);
+/* Pixels of its height. */
+size_t spec_legend_height(const struct spec_legend *legend);
 
 /*
- * Draws it into the last rows of a canvas: the colours, below them the numbers at their ends and
- * half-way, and the label between two of these or, where it is too long, in a line of its own;
- * there it is cut where even that is too short.
+ * Draws it into the last rows of a canvas, at least LEAST_WIDTH wide: the colours, below them the
+ * numbers at their ends and half-way, and the label between the first two of these or below; what
+ * is too long of it is cut at the right side.
  */
 void spec_legend_draw(const struct spec_legend *legend, struct spec_canvas *canvas);
 

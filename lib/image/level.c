@@ -407,11 +407,12 @@ apply(struct comparison *comparison, struct spec_reader *reader, struct spec_rgb
 
 enum spec_status
 spec_level_apply(const struct spec_level *level, struct spec_reader *reader,
-	const struct spec_rgb *seen, struct spec_rgb *rgb, struct spec_level_report *report,
-	const struct spec_settings *settings, struct spec_error *error)
+	const struct spec_image *image, const struct spec_rgb *seen, struct spec_rgb *rgb,
+	struct spec_level_report *report, const struct spec_settings *settings,
+	struct spec_error *error)
 {
 	struct comparison comparison = {.level = level,
-		.image = spec_reader_image(reader),
+		.image = image,
 		.seen = seen,
 		.bounded = level->kind == SPEC_LEVEL_BOUNDED};
 	enum spec_status status;

@@ -59,7 +59,8 @@ struct spec_level_report {
  * Takes bands out of a plan, by the level. Where the level is bounded, or a report is wanted
  * (not null), all lines of the image are read and compared, and the reader must have been
  * opened with settings->reread.
- * Given:    seen  the plan of the same image, observer, light and exposure in X, Y and Z;
+ * Given:    image  the reader's, or a layer of it
+ *           seen  the plan of the same image, observer, light and exposure in X, Y and Z;
  *                 read only to compare
  * Compared: CIELAB beside the white of seen, before anything that comes after the sums. At
  *           a bound of every pixel no difference is above it, and a level is no choice where
@@ -69,8 +70,8 @@ struct spec_level_report {
  *           as it was
  */
 enum spec_status spec_level_apply(const struct spec_level *level,
-	struct spec_reader *reader, const struct spec_rgb *seen, struct spec_rgb *rgb,
-	struct spec_level_report *report, const struct spec_settings *settings,
-	struct spec_error *error);
+	struct spec_reader *reader, const struct spec_image *image,
+	const struct spec_rgb *seen, struct spec_rgb *rgb, struct spec_level_report *report,
+	const struct spec_settings *settings, struct spec_error *error);
 
 #endif
