@@ -8,6 +8,6 @@ FIGURES += $(ROWS:%=$(BUILD)/figures/%/row.txt)
 
 $(BUILD)/figures/%/row.txt: tests/figures/%.sh tests/figures/row tests/figures/measure.bash \
 		$(wildcard tests/figures/*.awk tests/figures/*.pbrt) $(PROGRAMS) $(TESTHELPERS) $(SPECTRA) | \
-		$(DATA) $(PLUGIN) $(filter check,$(MAKECMDGOALS))
+		$(DATA) $(PLUGIN) $(PLACES) $(filter check,$(MAKECMDGOALS))
 	$(SAY) row $*
 	$(QUIET)tests/figures/row $(BUILD) $* >/dev/null || [ $$? = 1 ]

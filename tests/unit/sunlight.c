@@ -1,6 +1,7 @@
 /* lib/place: spectra named after a place and a time. */
 #include "check.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 
 #include "colour/temperature.h"
@@ -224,9 +225,42 @@ see(const char *name, double *lx, double *cct_k)
 }
 
 /*
- * A clear day in May: IES Lighting Handbook (10th edition, 2011, chapter 7) has 80 to 110 klx
- * for a sun 55 to 60 degrees high; D55 to D65 are for sun with sky (CIE 15:2018); a blue sky
- * is above 8000 K, and the sun at the horizon below 3000 K.
+ * IES Calculation Procedures Committee: Recommended practice for the calculation of daylight
+ * availability. Journal of the IES 13, 1984, 381-392. Of a clear sky, with the sun h high:
+ * 127.5 klx exp(-0.21 / sin h) from the sun, at 1 au, and 0.8 + 15.5 sqrt(sin h) klx from the
+ * sky on the ground. Theirs is a fit to measurements; the air of turbidity 2 is as clear.
+ */
+static void
+clear_days_are_as_bright_as_measured(void **state)
+{
+	static const char *const times[] = {
+		"13:37", "11:00", "10:00", "09:00", "08:00", "18:00"};
+
+	(void)state;
+	for (size_t i = 0; i < COUNT(times); i++) {
+		char name[96];
+		struct spec_sunlight sunlight;
+		struct spec_clearsky_sun seen;
+		double sun_lx, sky_lx, ignored, height, at_1_au;
+
+		snprintf(name, sizeof name, "sun@" LEUVEN "2005-05-17T%s+02:00,turbidity=2",
+			times[i]);
+		sunlight = parse(name);
+		expect_ok(spec_sunlight_sun(&sunlight, &seen, &error));
+		see(name, &sun_lx, &ignored);
+		snprintf(name, sizeof name, "sky@" LEUVEN "2005-05-17T%s+02:00,turbidity=2",
+			times[i]);
+		see(name, &sky_lx, &ignored);
+		height = sin((90 - seen.zenith_deg) * 3.14159265358979323846 / 180);
+		at_1_au = seen.distance_au * seen.distance_au;
+		near(sun_lx * at_1_au / (127.5e3 * exp(-.21 / height)), 1, .05, "sun");
+		near(sky_lx / (800 + 15.5e3 * sqrt(height)), 1, .1, "sky");
+	}
+}
+
+/*
+ * D55 to D65 stand for sun with sky (CIE 15:2018); a blue sky is above 8000 K, and the sun at
+ * the horizon below 3000 K.
  */
 static void
 a_day_has_its_brightness_and_colours(void **state)
@@ -291,6 +325,7 @@ main(void)
 		cmocka_unit_test(faults_are_shown),
 		cmocka_unit_test(there_is_no_light_in_the_night),
 		cmocka_unit_test(parts_are_those_of_the_clear_sky),
+		cmocka_unit_test(clear_days_are_as_bright_as_measured),
 		cmocka_unit_test(a_day_has_its_brightness_and_colours),
 		cmocka_unit_test(names_stand_where_spectra_do),
 	};
