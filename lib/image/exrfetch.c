@@ -7,6 +7,9 @@
 #include "image/exr.h"
 #include "image/exrreading.h"
 
+/* Bytes between two channels below which reading them takes less than another call. */
+#define JUMP 4096
+
 static enum spec_status
 fetch_failed(const struct exr_reader *reader, exr_result_t result, int y,
 	struct spec_error *error)
@@ -30,6 +33,64 @@ room_for(const exr_chunk_info_t *info)
 		    info->unpacked_size > info->packed_size;
 
 	return spec_reading_align(grows ? info->unpacked_size : info->packed_size);
+}
+
+/* Whether a chunk is a line as it is, of a file in which one can go to any place. */
+static int
+is_plain_line(const struct exr_reader *reader, const exr_chunk_info_t *info)
+{
+	return !reader->tiled && reader->base.source.seekable && info->height == 1 &&
+	       info->packed_size == info->unpacked_size &&
+	       info->packed_size == reader->base.line_bytes &&
+	       info->data_offset + info->packed_size <= (uint64_t)reader->base.source.size;
+}
+
+/* Reads the channels that are wanted, and no more between them than is worth a jump. */
+static enum spec_status
+read_wanted(struct exr_decoder *decoder, const exr_chunk_info_t *info, unsigned char *to,
+	struct spec_error *error)
+{
+	struct exr_reader *reader = exr_reader_of(decoder);
+	size_t channels = reader->base.image.channels, from = 0, end = 0, got;
+	enum spec_status status = SPEC_OK;
+
+	for (size_t i = 0; i <= channels && status == SPEC_OK; i++) {
+		if (i < channels && !decoder->base.wanted[i])
+			continue;
+		if (end > from && (i == channels || reader->offset[i] > end + JUMP)) {
+			status = spec_source_read(&reader->base.source, to + from,
+				end - from, (int64_t)(info->data_offset + from), &got,
+				error);
+			if (status == SPEC_OK && got < end - from)
+				return spec_error_set(error, SPEC_EFORMAT,
+					"%s: ends early, in line %d of %d..%d",
+					reader->base.source.name, info->start_y,
+					reader->base.image.data.y0,
+					reader->base.image.data.y1 - 1);
+			from = end;
+		}
+		if (i == channels)
+			break;
+		from = end > from ? from : reader->offset[i];
+		end = i + 1 < channels ? reader->offset[i + 1] : reader->base.line_bytes;
+	}
+	return status;
+}
+
+static enum spec_status
+read_chunk(struct exr_decoder *decoder, const exr_chunk_info_t *info, int y,
+	unsigned char *to, struct spec_error *error)
+{
+	struct exr_reader *reader = exr_reader_of(decoder);
+	exr_result_t result;
+
+	if (is_plain_line(reader, info))
+		return read_wanted(decoder, info, to, error);
+	result = exr_read_chunk(reader->context, reader->part, info, to);
+	/* The library fills a short uncompressed chunk with zeros and calls it success. */
+	if (result != EXR_ERR_SUCCESS || spec_exr_has_note())
+		return fetch_failed(reader, result, y, error);
+	return SPEC_OK;
 }
 
 /* Reads one chunk to the end of packed. column: the tile's, or 0. */
@@ -63,13 +124,11 @@ fetch_chunk(struct exr_decoder *decoder, int y, int column, size_t *used,
 			(unsigned long long)chunk->info.unpacked_size);
 	status = spec_reading_reserve(
 		&decoder->base.packed, *used + room_for(&chunk->info), *used, error);
+	if (status == SPEC_OK)
+		status = read_chunk(decoder, &chunk->info, y,
+			decoder->base.packed.bytes + *used, error);
 	if (status != SPEC_OK)
 		return status;
-	result = exr_read_chunk(reader->context, reader->part, &chunk->info,
-		decoder->base.packed.bytes + *used);
-	/* The library fills a short uncompressed chunk with zeros and calls it success. */
-	if (result != EXR_ERR_SUCCESS || spec_exr_has_note())
-		return fetch_failed(reader, result, y, error);
 	chunk->at = *used;
 	*used += room_for(&chunk->info);
 	decoder->chunks++;

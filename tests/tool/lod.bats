@@ -266,9 +266,17 @@ coarse() {
       cmp wanted.png pipe.png
     done
   done
-  spec2rgb --lod 3 a.exr -o wanted.png
-  cat a.exr | spec2rgb --lod 3 -o pipe.png
-  cmp wanted.png pipe.png
+  specconvert --half a.exr --compression none -o half.exr
+  specconvert half.exr --compression zip -o packed.exr
+  for level in 0 1 3 5 6; do
+    for file in a:none packed:half; do
+      spec2rgb --lod $level "${file%:*}.exr" -o wanted.png
+      spec2rgb --lod $level "${file#*:}.exr" -o file.png
+      cmp wanted.png file.png
+      cat "${file#*:}.exr" | spec2rgb --lod $level -o pipe.png
+      cmp wanted.png pipe.png
+    done
+  done
 }
 
 @test "a pixel that is not finite stays so within a bound, and is counted" {
@@ -322,6 +330,13 @@ coarse() {
 @test "input that ends early, and no place for a copy of a pipe" {
   spectral a.exr --compression none
   head -c 5000 a.exr >short.exr
+  # All bands that are kept are there, and the last byte of something else is not.
+  spectral more.exr --size 128x4 --extra Z --extra AA --compression none
+  spec2rgb --lod 0 more.exr -o x.png
+  head -c -1 more.exr >less.exr
+  fails_cleanly spec2rgb --lod 0 less.exr -o y.png
+  [[ $stderr = *': less.exr: ends early, in line 3 of 0..3' ]] || complain "$stderr"
+  rm more.exr less.exr x.png
   for option in '--lod 2' '--lod de2000-max:1' '--step 40 --error'; do
     # shellcheck disable=SC2086 # words
     fails_cleanly spec2rgb $option short.exr -o x.png
