@@ -601,7 +601,21 @@ close_reader(struct spec_reader *base)
 
 /* ---- lines ---- */
 
-/* The lines of one input after another, each with its channels interleaved. */
+/* Whether a channel that is wanted comes from an input. */
+static int
+is_wanted(const struct spec_decoder *decoder, size_t number)
+{
+	const struct picture_reader *reader =
+		(const struct picture_reader *)decoder->reader;
+
+	for (size_t c = 0; c < reader->base.image.channels; c++) {
+		if (decoder->wanted[c] && reader->from_input[c] == number)
+			return 1;
+	}
+	return 0;
+}
+
+/* The lines of one wanted input after another, each with its channels interleaved. */
 static enum spec_status
 fetch(struct spec_decoder *decoder, struct spec_error *error)
 {
@@ -615,6 +629,8 @@ fetch(struct spec_decoder *decoder, struct spec_error *error)
 	for (size_t i = 0; i < reader->inputs && status == SPEC_OK; i++) {
 		const struct input *input = &reader->input[i];
 
+		if (!is_wanted(decoder, i))
+			continue;
 		status = input->png ? spec_png_read(input->png, first, end, reader->colours,
 					      reader->base.limits.memory, to, &cause)
 				    : reader->plugin.table->read_input(
@@ -691,6 +707,8 @@ decode(struct spec_decoder *decoder, struct spec_error *error)
 		const struct input *input = &reader->input[i];
 		size_t stride = width * (size_t)input->content.channels;
 
+		if (!is_wanted(decoder, i))
+			continue;
 		if (reader->base.source.fd < 0)
 			status = check_grey(input, from, width * lines, error);
 		for (size_t line = 0; line < lines; line++, from += stride)

@@ -140,6 +140,26 @@ coarse() {
   same_light wanted.exr got.exr
 }
 
+@test "a folder of pictures, of which some are not read" {
+  spectral a.exr --grid 400:720:20 --pattern grain
+  mkdir folder
+  for nm in 450 500 550 600 650; do
+    spec2rgb --observer v-photopic -e $((nm / 50 - 11)) --bits 16 a.exr -o folder/${nm}nm.png
+  done
+  specconvert --read-as radiance folder -o all.exr
+  for level in 0 1; do
+    spec2rgb -q --lod $level all.exr -o wanted.exr
+    spec2rgb -q --lod $level --error --read-as radiance folder -o got.exr
+    specdiff -m max -t max=0 wanted.exr got.exr
+  done
+  # What is not read may be damaged: its samples are, its header is not.
+  head -c -40 folder/500nm.png >short && mv short folder/500nm.png
+  spec2rgb -q --lod 1 --read-as radiance folder -o got.exr
+  specdiff -m max -t max=0 wanted.exr got.exr
+  fails_cleanly spec2rgb -q --lod 2 --read-as radiance folder -o x.exr
+  [[ $stderr = *folder/500nm.png:* ]] || complain "$stderr"
+}
+
 @test "--model has the components of the coarser colour" {
   spectral a.exr --pattern grain
   coarse=$(spec2rgb --lod 2 a.exr -f ppm | md5sum)
