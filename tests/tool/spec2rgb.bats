@@ -136,6 +136,70 @@ camera() {
       { v = $1 < 500 ? ($1 - 430) / 70 : $1 > 600 ? (660 - $1) / 60 : 1; printf "%s %.17g %.17g %.17g\n", $1, r * v, g * v, b * v }'
 }
 
+# xyz_of FILE OPTION...: X, Y and Z of the first pixel.
+xyz_of() {
+  spec2rgb --space xyz "${@:2}" "$1" -o xyz_of.exr
+  "$TESTS/layers" --print 0,0 xyz_of.exr | awk '{ print $2 }' | xargs
+}
+
+@test "bispectral images under any light, with their fluorescence" {
+  local plain=() light
+  for nm in {400..700..10}; do
+    plain+=(--channel "T.$nm,000000nm")
+  done
+  # 410 nm come back at 550 nm, too, and 500 nm at 600 nm: 0.3 of each.
+  spectral glow.exr --size 2x1 "${plain[@]}" --channel T.410,000000nm.550,000000nm \
+    --channel T.500,000000nm.600,000000nm --pattern constant:0.3
+  spectral grey.exr --size 2x1 "${plain[@]}" --pattern constant:0.3
+  spectral white.exr --size 2x1 "${plain[@]}" --pattern constant:1
+  # Linear between the bands, so that the sums of both ways are the same.
+  printf '%s\n' '# quantity: spectral power distribution' '380 0' '400 0' '410 2' '420 0' '780 0' >violet.spd
+  printf '%s\n' '# quantity: spectral power distribution' '380 1' '780 3' >slope.spd
+  for light in violet slope; do
+    # The light that the image sends back, seen as light; Y = 1 is the perfect reflector's.
+    for image in glow grey white; do
+      specconvert --illuminate $light.spd $image.exr -o lit.exr
+      echo "$(xyz_of $image.exr --illuminant $light.spd) $(xyz_of lit.exr)"
+    done >$light.txt
+    awk -v light=$light '
+      { for (i = 1; i <= 6; i++) v[NR, i] = $i }
+      END {
+        unit = v[3, 5] / v[3, 2]
+        for (line = 1; line <= 3; line++) for (i = 1; i <= 3; i++) {
+          off = v[line, i + 3] / unit / v[line, i] - 1
+          if (off * off > 1e-10) { print light, line, i, off; bad = 1 }
+        }
+        # 550 nm have x = .30; and the less there is to glow by, the less it glows.
+        glow = (v[1, 2] - v[2, 2]) / v[2, 2]
+        x = (v[1, 1] - v[2, 1]) / (v[1, 1] + v[1, 2] + v[1, 3] - v[2, 1] - v[2, 2] - v[2, 3])
+        print light, "glows", glow, "times, x =", x
+        if (light == "violet" && !(glow > 300 && x > .29 && x < .31)) bad = 1
+        if (light == "slope" && !(glow > .05 && glow < .2)) bad = 1
+        exit bad
+      }' $light.txt >said || complain "$(cat said)"
+  done
+  # In the picture: violet light makes grey a dark violet, and what glows a green.
+  spec2rgb -e -8 --illuminant violet.spd glow.exr -o glow.ppm
+  spec2rgb -e -8 --illuminant violet.spd grey.exr -o grey.ppm
+  read -r red green blue < <(pixel glow.ppm 0 0)
+  ((green > red && green > blue)) || complain "$red $green $blue"
+  read -r red green blue < <(pixel grey.ppm 0 0)
+  ((blue > red && blue > green)) || complain "$red $green $blue"
+}
+
+@test "reflective images under any light: the product with it, seen as light" {
+  spectral paint.exr --kind T --size 2x1 --grid 400:700:5
+  for light in A F11 HP1 blackbody:2000K daylight:9000K; do
+    specconvert --illuminate $light paint.exr -o lit.exr
+    spectral white.exr --kind T --size 2x1 --grid 400:700:5 --pattern constant:1
+    specconvert --illuminate $light white.exr -o source.exr
+    # Between bands of 5 nm the lines of lamps are not quite those of their tables.
+    echo "$(xyz_of paint.exr --illuminant $light) $(xyz_of white.exr --illuminant $light) $(xyz_of lit.exr) $(xyz_of source.exr)" |
+      awk '{ for (i = 1; i <= 3; i++) { off = ($(i + 6) / $(i + 9)) / ($i / $(i + 3)) - 1; if (off * off > 1e-4) { print i, off; bad = 1 } } } END { exit bad }' ||
+      complain $light
+  done
+}
+
 @test "lights by formula: daylight and black bodies" {
   spectral white.exr --kind T --grid 360:830:5 --pattern constant:0.5
   spec2rgb --illuminant D65 white.exr -o table.ppm
