@@ -40,14 +40,14 @@ find_first(const double *wavelength_nm, size_t count, int step_nm, long *first,
 
 	*first = 0;
 	if (fabs(place - round(place)) * step_nm > SAME_NM)
-		return spec_error_set(error, SPEC_ERANGE,
+		return spec_error_set(error, SPEC_EUNSUPPORTED,
 			"bands at %g, %g, … nm are not among those of the table of ASTM "
 			"E308, %d, %d, … nm",
 			wavelength_nm[0], wavelength_nm[1], SPEC_ABRIDGED_FIRST_NM,
 			SPEC_ABRIDGED_FIRST_NM + step_nm);
 	if (wavelength_nm[0] > SPEC_ABRIDGED_LAST_NM + SAME_NM ||
 		wavelength_nm[count - 1] < SPEC_ABRIDGED_FIRST_NM - SAME_NM)
-		return spec_error_set(error, SPEC_ERANGE,
+		return spec_error_set(error, SPEC_EUNSUPPORTED,
 			"bands of %g..%g nm lie outside the table of ASTM E308, %d..%d nm",
 			wavelength_nm[0], wavelength_nm[count - 1], SPEC_ABRIDGED_FIRST_NM,
 			SPEC_ABRIDGED_LAST_NM);
@@ -168,7 +168,7 @@ spec_abridged_weights(const struct spec_curve *observer,
 	enum spec_status status;
 
 	if (step_nm == 0)
-		return spec_error_set(error, SPEC_ERANGE,
+		return spec_error_set(error, SPEC_EUNSUPPORTED,
 			"ASTM E308 has weights for bands %d or %d nm apart, not for these",
 			steps_nm[0], steps_nm[1]);
 	status = find_first(wavelength_nm, count, step_nm, &first, error);

@@ -28,9 +28,9 @@
  *           lacks are added to its first and last; its bands outside the table weigh nothing.
  * Source:   ASTM E2022-11, by which the tables of ASTM E308-15 are made; the latter of bands
  *           that are missing.
- * Errors:   SPEC_ERANGE   bands that are not 10 or 20 nm apart, that do not fall on those
- *                         of the table, or of which none is in it
- *           SPEC_EFORMAT  a sum that is not finite and positive
+ * Errors:   SPEC_EUNSUPPORTED  bands that are not 10 or 20 nm apart, that do not fall on
+ *                              those of the table, or of which none is in it
+ *           SPEC_EFORMAT       a sum that is not finite and positive
  *           SPEC_ENOMEM
  */
 enum spec_status spec_abridged_weights(const struct spec_curve *observer,

@@ -6,6 +6,7 @@
 
 #include "base/memory.h"
 #include "base/vector.h"
+#include "colour/appearance.h"
 #include "colour/observer.h"
 
 #define RUN 256 /* pixels whose sums stay in the nearest cache */
@@ -19,20 +20,18 @@ struct xyz_terms {
 
 static enum spec_status
 observe_bands(const struct spec_image *image, const struct spec_rgb_setup *setup,
-	const struct spec_curve *illuminant, double *weight, double *outside,
+	const struct spec_curve *illuminant, double *weight, struct spec_rule_sums *sums,
 	struct spec_error *error)
 {
 	char *quantity = spec_image_quantity(image, error);
 	struct spec_bands bands = {image->bands, image->wavelength_nm, image->edges_nm, 0};
-	enum spec_status status;
 
 	if (!quantity)
 		return SPEC_ENOMEM;
 	bands.per_band = strstr(quantity, "per band") != NULL;
 	free(quantity);
-	status = spec_observer_weights(
-		setup->observer, illuminant, &bands, weight, outside, error);
-	return status;
+	return spec_rule_weights(
+		setup->rule, setup->observer, illuminant, &bands, weight, sums, error);
 }
 
 /* The illuminant's power at a wavelength; outside its data it is zero. */
@@ -60,39 +59,17 @@ nearest_band(const struct spec_image *image, double wavelength_nm)
 	return best;
 }
 
-/* Sum over the observer's table of power times ybar: what the weights are relative to. */
-static enum spec_status
-luminance_of(const struct spec_curve *observer, const struct spec_curve *illuminant,
-	double *luminance, struct spec_error *error)
-{
-	*luminance = 0;
-	for (size_t i = 0; i < observer->count; i++) {
-		double power;
-		enum spec_status status =
-			power_at(illuminant, observer->wavelength_nm[i], &power, error);
-
-		if (status != SPEC_OK)
-			return status;
-		*luminance += power * observer->value[observer->count + i];
-	}
-	return SPEC_OK;
-}
-
 /* Light of the wavelength in that leaves at the wavelength out. */
 static enum spec_status
 add_bispectral(const struct spec_image *image, const struct spec_rgb_setup *setup,
-	struct xyz_terms *terms, size_t room, struct spec_error *error)
+	double integral, struct xyz_terms *terms, size_t room, struct spec_error *error)
 {
 	double *plain = spec_memory_new(image->bands, 3 * sizeof *plain, "bands", error);
-	double outside, all, lit;
+	struct spec_rule_sums sums;
 	enum spec_status status =
-		plain ? observe_bands(image, setup, NULL, plain, &outside, error)
+		plain ? observe_bands(image, setup, NULL, plain, &sums, error)
 		      : SPEC_ENOMEM;
 
-	if (status == SPEC_OK)
-		status = luminance_of(setup->observer, NULL, &all, error);
-	if (status == SPEC_OK)
-		status = luminance_of(setup->observer, setup->illuminant, &lit, error);
 	for (size_t i = 0; i < image->channels && status == SPEC_OK; i++) {
 		const struct spec_channel *channel = &image->channel[i];
 		size_t out;
@@ -105,24 +82,34 @@ add_bispectral(const struct spec_image *image, const struct spec_rgb_setup *setu
 		terms->channel[terms->count] = i;
 		for (size_t j = 0; j < 3; j++)
 			terms->weight[j * room + terms->count] =
-				plain[j * image->bands + out] * power * all / lit;
+				plain[j * image->bands + out] * power * sums.integral /
+				integral;
 		terms->count++;
 	}
 	free(plain);
 	return status;
 }
 
+static const struct spec_curve *
+illuminant_of(const struct spec_image *image, const struct spec_rgb_setup *setup)
+{
+	return image->role == SPEC_ROLE_REFLECTIVE ? setup->illuminant : NULL;
+}
+
 static enum spec_status
 collect_terms(const struct spec_image *image, const struct spec_rgb_setup *setup,
-	struct xyz_terms *terms, size_t room, double *outside, struct spec_error *error)
+	struct xyz_terms *terms, size_t room, struct spec_rule_sums *sums,
+	struct spec_error *error)
 {
-	const struct spec_curve *illuminant =
-		image->role == SPEC_ROLE_REFLECTIVE ? setup->illuminant : NULL;
 	double *weight = spec_memory_new(image->bands, 3 * sizeof *weight, "bands", error);
 	enum spec_status status = SPEC_ENOMEM;
 
-	if (weight)
-		status = observe_bands(image, setup, illuminant, weight, outside, error);
+	if (image->bispectral > 0 && setup->rule == SPEC_RULE_ASTM)
+		status = spec_error_set(error, SPEC_EUSAGE,
+			"the weights of ASTM E308 are not for bispectral images");
+	else if (weight)
+		status = observe_bands(
+			image, setup, illuminant_of(image, setup), weight, sums, error);
 	for (size_t i = 0; i < image->bands && status == SPEC_OK; i++) {
 		terms->channel[i] = image->band_channel[i];
 		for (size_t j = 0; j < 3; j++)
@@ -131,13 +118,57 @@ collect_terms(const struct spec_image *image, const struct spec_rgb_setup *setup
 	terms->count = image->bands;
 	free(weight);
 	if (status == SPEC_OK && image->bispectral > 0)
-		status = add_bispectral(image, setup, terms, room, error);
+		status = add_bispectral(image, setup, sums->integral, terms, room, error);
 	return status;
 }
 
+/* Whether the luminance of Y = 1 is known. */
 static enum spec_status
-matrix_of(const struct spec_image *image, const struct spec_rgb_setup *setup, double m[9],
-	double white[3], struct spec_error *error)
+find_luminance(const struct spec_image *image, const struct spec_rgb_setup *setup,
+	double integral, double *luminance, struct spec_error *error)
+{
+	const struct spec_curve *illuminant = illuminant_of(image, setup);
+	char *quantity = spec_image_quantity(image, error);
+	enum spec_seen seen;
+
+	*luminance = NAN;
+	if (!quantity)
+		return SPEC_ENOMEM;
+	seen = illuminant ? spec_seen_of(illuminant->quantity, illuminant->unit)
+			  : spec_seen_of(quantity, "");
+	free(quantity);
+	if (seen == SPEC_SEEN_RADIANCE)
+		*luminance = integral * spec_rule_efficacy(setup->observer);
+	return SPEC_OK;
+}
+
+/* What the weights of Y = 1 are multiplied by, before the exposure. */
+static enum spec_status
+find_scale(const struct spec_image *image, const struct spec_rgb_setup *setup,
+	double luminance, double *scale, struct spec_error *error)
+{
+	*scale = setup->scale == SPEC_RGB_HUNDRED ? 100 : 1;
+	if (setup->scale != SPEC_RGB_ABSOLUTE)
+		return SPEC_OK;
+	*scale = luminance;
+	if (isfinite(luminance))
+		return SPEC_OK;
+	if (isnan(spec_rule_efficacy(setup->observer)))
+		return spec_error_set(error, SPEC_EUNSUPPORTED,
+			"observer '%.200s' has no luminous efficiency, and so no luminance",
+			setup->observer->title);
+	if (image->role == SPEC_ROLE_REFLECTIVE)
+		return spec_error_set(error, SPEC_EUNSUPPORTED,
+			"reflectance has a luminance only under an illuminant whose "
+			"quantity is a radiance, and '%.200s' tells ratios alone",
+			setup->illuminant ? setup->illuminant->title : "equal energy");
+	return spec_error_set(error, SPEC_EUNSUPPORTED,
+		"has no luminance: its spec:quantity is no radiance");
+}
+
+static enum spec_status
+matrix_of(const struct spec_image *image, const struct spec_rgb_setup *setup,
+	const double seen_white[3], double m[9], double white[3], struct spec_error *error)
 {
 	static const double identity[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
 	int reflective = image->role == SPEC_ROLE_REFLECTIVE,
@@ -155,9 +186,7 @@ matrix_of(const struct spec_image *image, const struct spec_rgb_setup *setup, do
 		status = spec_error_set(error, SPEC_EUSAGE,
 			"observer '%.200s' has no X, Y and Z to adapt to another white%s",
 			setup->observer->title, plain ? "" : ", or to make Lab or xyY of");
-	if (status == SPEC_OK)
-		status = spec_observer_white(setup->observer,
-			reflective ? setup->illuminant : NULL, white, error);
+	memcpy(white, seen_white, 3 * sizeof *white);
 	if (status != SPEC_OK || !reflective || setup->adaptation == SPEC_ADAPTATION_NONE)
 		return status;
 	spec_white_xyz(to_xy, to);
@@ -173,12 +202,19 @@ fill_plan(struct spec_rgb *rgb, const struct spec_image *image,
 	const struct spec_rgb_setup *setup, size_t room, struct spec_error *error)
 {
 	struct xyz_terms terms = {0, rgb->channel, rgb->weight};
-	double m[9], scale = exp2(setup->exposure);
-	enum spec_status status =
-		collect_terms(image, setup, &terms, room, &rgb->outside, error);
+	struct spec_rule_sums sums = {0};
+	double m[9], scale = 1;
+	enum spec_status status = collect_terms(image, setup, &terms, room, &sums, error);
 
 	if (status == SPEC_OK)
-		status = matrix_of(image, setup, m, rgb->white, error);
+		status =
+			find_luminance(image, setup, sums.integral, &rgb->luminance, error);
+	if (status == SPEC_OK)
+		status = find_scale(image, setup, rgb->luminance, &scale, error);
+	if (status == SPEC_OK)
+		status = matrix_of(image, setup, sums.white, m, rgb->white, error);
+	scale *= exp2(setup->exposure);
+	rgb->outside = sums.outside;
 	rgb->terms = terms.count;
 	for (size_t i = 0; i < rgb->terms && status == SPEC_OK; i++) {
 		double xyz[3] = {

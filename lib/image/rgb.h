@@ -5,9 +5,17 @@
 #include <stddef.h>
 
 #include "base/error.h"
+#include "colour/rule.h"
 #include "colour/space.h"
 #include "image/image.h"
 #include "spectrum/curve.h"
+
+/* What Y = 1 of spec_observer_weights becomes. */
+enum spec_rgb_scale {
+	SPEC_RGB_ONE,
+	SPEC_RGB_HUNDRED,
+	SPEC_RGB_ABSOLUTE /* its luminance in cd m^-2 */
+};
 
 struct spec_rgb_setup {
 	/* Where it sees no XYZ, its signals are the RGB, of no space, and not adapted. */
@@ -17,6 +25,8 @@ struct spec_rgb_setup {
 	enum spec_adaptation adaptation;
 	const struct spec_space *space;
 	double exposure; /* in stops: everything is multiplied by 2^exposure */
+	enum spec_rule rule;
+	enum spec_rgb_scale scale;
 };
 
 /*
@@ -33,15 +43,23 @@ struct spec_rgb {
 	 * perfect reflector, adapted.
 	 */
 	double white[3];
+	/*
+	 * [cd m^-2] what that Y = 1 is before the exposure, by the efficacy of the observer
+	 * (rule.h): of radiance; of reflectance where the illuminant is one, that of the
+	 * perfect reflector. Else NaN.
+	 */
+	double luminance;
 };
 
 /*
+ * By the rule "cie", and so by the others as rule.h has it:
  * Emissive images: S0's bands; a radiance of 1 per nm at all wavelengths has Y = 1.
  * Reflective ones: T under the illuminant; the perfect reflector has Y = 1.
  * Bispectral channels add T.in.out times the illuminant at in, relative to the same
  * Y, at out: their values are the elements of a discrete reradiation matrix.
- * Errors: no bands; SPEC_EUSAGE: an adaptation without XYZ; those of
- * spec_observer_weights.
+ * Errors: no bands; SPEC_EUSAGE: an adaptation without XYZ, the rule "astm" for bispectral
+ * images; SPEC_EUNSUPPORTED: the scale is absolute, and the luminance not known; those of
+ * spec_rule_weights.
  */
 enum spec_status spec_rgb_plan(struct spec_rgb *rgb, const struct spec_image *image,
 	const struct spec_rgb_setup *setup, struct spec_error *error);

@@ -323,14 +323,14 @@ astm_refuses_other_bands(void **state)
 	(void)state;
 	open_scene(&scene, "1931", "D65");
 	lay_bands(&scene, 400, 700, 5);
-	refuse(&scene, SPEC_RULE_ASTM, SPEC_ERANGE, "10 or 20 nm apart");
+	refuse(&scene, SPEC_RULE_ASTM, SPEC_EUNSUPPORTED, "10 or 20 nm apart");
 	lay_bands(&scene, 400, 700, 10);
 	scene.nm[30] = 699;
-	refuse(&scene, SPEC_RULE_ASTM, SPEC_ERANGE, "10 or 20 nm apart");
+	refuse(&scene, SPEC_RULE_ASTM, SPEC_EUNSUPPORTED, "10 or 20 nm apart");
 	lay_bands(&scene, 405, 705, 10);
-	refuse(&scene, SPEC_RULE_ASTM, SPEC_ERANGE, "405, 415, … nm are not among");
+	refuse(&scene, SPEC_RULE_ASTM, SPEC_EUNSUPPORTED, "405, 415, … nm are not among");
 	lay_bands(&scene, 410, 690, 20);
-	refuse(&scene, SPEC_RULE_ASTM, SPEC_ERANGE, "410, 430, … nm are not among");
+	refuse(&scene, SPEC_RULE_ASTM, SPEC_EUNSUPPORTED, "410, 430, … nm are not among");
 	lay_bands(&scene, 400, 420, 10);
 	scene.bands.edges_nm = edges;
 	refuse(&scene, SPEC_RULE_ASTM, SPEC_EUSAGE, "not for means over bins");
