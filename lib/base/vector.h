@@ -38,6 +38,8 @@ SPEC_VECTOR_FUNCTION(double, spec_vector_log, "log");
 SPEC_VECTOR_FUNCTION(float, spec_vector_expf, "expf");
 extern double spec_vector_pow(double, double) __asm__("pow")
 	__attribute__((simd("notinbranch"), const));
+extern double spec_vector_atan2(double, double) __asm__("atan2") /* since glibc 2.35 */
+	__attribute__((simd("notinbranch"), const));
 #else
 #define spec_vector_sin sin
 #define spec_vector_cos cos
@@ -47,6 +49,7 @@ extern double spec_vector_pow(double, double) __asm__("pow")
 #define spec_vector_cbrt cbrt
 #define spec_vector_log log
 #define spec_vector_pow pow
+#define spec_vector_atan2 atan2
 #define spec_vector_expf expf
 #endif
 

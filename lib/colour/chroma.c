@@ -103,7 +103,7 @@ gather(struct batch *batch, float *const plane[3], size_t x0, size_t count)
 	batch->count = 0;
 	for (size_t i = 0; i < count; i++) {
 		batch->place[batch->count] = x0 + i;
-		batch->count += flag[i];
+		batch->count += flag[i] != 0;
 	}
 	for (size_t i = 0; i < batch->count; i++) {
 		batch->red[i] = plane[0][batch->place[i]];

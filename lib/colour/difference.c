@@ -2,14 +2,7 @@
 
 #include <math.h>
 
-/* CIE 15:2018: where the cube root meets the straight line, and the line's slope. */
-#define LAB_EPSILON (216. / 24389) /* (6/29)^3 */
-#define LAB_KAPPA (24389. / 27)    /* (29/3)^3 */
-
-#define DEGREE (3.14159265358979323846 / 180) /* rad */
-
-/* 25^7, of the chroma weights G and R_C. */
-#define CHROMA7 6103515625.
+#include "colour/differing.h"
 
 static double
 lab_root(double ratio)
@@ -47,14 +40,6 @@ spec_difference_cie94(const double lab1[3], const double lab2[3])
 	double h = sqrt(fmax(a * a + b * b - (c1 - c2) * (c1 - c2), 0)) / (1 + .015 * c1);
 
 	return sqrt(l * l + c * c + h * h);
-}
-
-static double
-seventh_power(double c)
-{
-	double c3 = c * c * c;
-
-	return c3 * c3 * c;
 }
 
 /* Hue angle [rad] in [0, 2 pi), 0 for grey. */

@@ -2,6 +2,8 @@
 #ifndef SPEC_COLOUR_DIFFERENCE_H
 #define SPEC_COLOUR_DIFFERENCE_H
 
+#include <stddef.h>
+
 /*
  * CIELAB coordinates of a colour.
  * Given:    xyz    tristimulus values, finite, on the scale of white (negative ones go
@@ -33,5 +35,17 @@ double spec_difference_cie94(const double lab1[3], const double lab2[3]);
  * Domain:   meant for differences up to about 5; hue is discontinuous at 180 degrees.
  */
 double spec_difference_ciede2000(const double lab1[3], const double lab2[3]);
+
+/*
+ * Both of them of many colours: planes hold count numbers each. Beside the functions above
+ * CIELAB is at most 1e-12 off where XYZ do not exceed white, and a difference 1e-11.
+ */
+
+/* In place: X, Y, Z become L*, a*, b*. */
+void spec_lab_row(const double white[3], double *const plane[3], size_t count);
+
+/* CIEDE2000 of each pair. */
+void spec_difference_ciede2000_row(const double *const lab1[3], const double *const lab2[3],
+	size_t count, double *difference);
 
 #endif

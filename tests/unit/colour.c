@@ -12,6 +12,7 @@
 #include "spectrum/spd.h"
 
 #include "check.h"
+#include "random.h"
 
 static void
 near_all(const double *got, const double *wanted, size_t count, double tolerance,
@@ -497,6 +498,109 @@ test_ciede2000_nan(void **state)
 	}
 }
 
+#define PAIRS 5000
+
+struct labs {
+	double one[3][PAIRS], two[3][PAIRS], difference[PAIRS];
+};
+
+static void
+take_differences(struct labs *labs, size_t count)
+{
+	const double *const one[3] = {labs->one[0], labs->one[1], labs->one[2]};
+	const double *const two[3] = {labs->two[0], labs->two[1], labs->two[2]};
+
+	spec_difference_ciede2000_row(one, two, count, labs->difference);
+}
+
+/* Sharma's pairs, as vectors of them. */
+static void
+test_ciede2000_row_sharma(void **state)
+{
+	static struct labs labs;
+
+	(void)state;
+	for (size_t i = 0; i < COUNT(sharma); i++) {
+		for (size_t c = 0; c < 3; c++) {
+			labs.one[c][i] = labs.two[c][COUNT(sharma) + i] = sharma[i][c];
+			labs.two[c][i] = labs.one[c][COUNT(sharma) + i] = sharma[i][3 + c];
+		}
+	}
+	take_differences(&labs, 2 * COUNT(sharma));
+	for (size_t i = 0; i < 2 * COUNT(sharma); i++)
+		near(labs.difference[i], sharma[i % COUNT(sharma)][6], 5.1e-5, "Sharma");
+}
+
+/* Beside one by one: near and far, greys, opposite hues, hues beside 0. */
+static void
+test_ciede2000_row(void **state)
+{
+	static struct labs labs;
+	uint64_t random = 1;
+
+	(void)state;
+	for (size_t i = 0; i < PAIRS; i++) {
+		double far = i % 2 ? 100 : pow(10, -(double)(i % 14));
+
+		labs.one[0][i] = random_in(&random, 0, 100);
+		labs.two[0][i] = labs.one[0][i] + far * random_in(&random, -.5, .5);
+		for (size_t c = 1; c < 3; c++) {
+			labs.one[c][i] = random_in(&random, -100, 100);
+			labs.two[c][i] = labs.one[c][i] + far * random_in(&random, -.5, .5);
+		}
+		if (i % 16 == 3) /* opposite, exactly */
+			for (size_t c = 1; c < 3; c++)
+				labs.two[c][i] = -labs.one[c][i];
+		if (i % 16 == 5) /* on either side of hue 0 */
+			labs.two[2][i] = -(labs.one[2][i] *= 1e-3);
+		if (i % 16 == 7)
+			labs.one[1][i] = labs.one[2][i] = 0;
+	}
+	labs.one[1][99] = labs.two[0][100] = NAN;
+	take_differences(&labs, PAIRS);
+	for (size_t i = 0; i < PAIRS; i++) {
+		const double one[3] = {labs.one[0][i], labs.one[1][i], labs.one[2][i]};
+		const double two[3] = {labs.two[0][i], labs.two[1][i], labs.two[2][i]};
+
+		if (i == 99 || i == 100)
+			assert_true(isnan(labs.difference[i]));
+		else
+			near(labs.difference[i], spec_difference_ciede2000(one, two), 1e-11,
+				"one by one");
+	}
+	memcpy(labs.two, labs.one, sizeof labs.two);
+	take_differences(&labs, 99);
+	for (size_t i = 0; i < 99; i++)
+		near(labs.difference[i], 0, 0, "itself");
+}
+
+/* Over the joint of root and line, and below 0. */
+static void
+test_lab_row(void **state)
+{
+	static struct labs labs;
+	double *const plane[3] = {labs.two[0], labs.two[1], labs.two[2]};
+	uint64_t random = 1;
+
+	(void)state;
+	for (size_t i = 0; i < PAIRS; i++)
+		for (size_t c = 0; c < 3; c++)
+			labs.one[c][i] = i % 3 ? random_in(&random, -.02, .02)
+					       : random_between(&random, 1e-3, 1e3);
+	memcpy(labs.two, labs.one, sizeof labs.two);
+	spec_lab_row(d65, plane, PAIRS);
+	for (size_t i = 0; i < PAIRS; i++) {
+		double xyz[3] = {labs.one[0][i], labs.one[1][i], labs.one[2][i]}, lab[3];
+		double root = cbrt(fmax(fmax(xyz[0], 1), fmax(xyz[1], xyz[2])));
+
+		/* 500 times two roots that are 4 units in the last place off. */
+		spec_lab_from_xyz(xyz, d65, lab);
+		for (size_t c = 0; c < 3; c++)
+			near(labs.two[c][i], lab[c], 4000 * DBL_EPSILON * root,
+				"one by one");
+	}
+}
+
 static void
 test_lab(void **state)
 {
@@ -873,6 +977,9 @@ main(void)
 		cmocka_unit_test(test_ciede2000_sharma),
 		cmocka_unit_test(test_cie94),
 		cmocka_unit_test(test_ciede2000_nan),
+		cmocka_unit_test(test_ciede2000_row_sharma),
+		cmocka_unit_test(test_ciede2000_row),
+		cmocka_unit_test(test_lab_row),
 		cmocka_unit_test(test_lab),
 		cmocka_unit_test(test_observer_flat),
 		cmocka_unit_test(test_observer_ramp),
