@@ -8,22 +8,26 @@
 #include "colour/difference.h"
 
 /* Pixels at a time: the sums stay in the first-level cache, 81 bands in the second. */
-#define CHUNK 64
+#define CHUNK 128
+
+#define LANES 8 /* sums and extremes side by side */
 
 /* Pixels x0 .. x0 + n - 1 of the row and what is summed over their bands. */
 struct chunk {
 	const struct spec_measure_setup *setup;
 	const float *const *a, *const *b;
 	size_t x0, n;
-	int dirty;                   /* holds samples that are not finite */
+	int dirty; /* holds samples that are not finite */
+	float clean_a[CHUNK], clean_b[CHUNK];
+	unsigned char bad[CHUNK];    /* the pixel has a nonfinite difference */
 	double aa[CHUNK], bb[CHUNK]; /* squared lengths */
 	double square[CHUNK];        /* of the difference */
 	double worst[CHUNK];         /* the largest magnitude of the difference */
+	double largest[CHUNK];       /* the largest magnitude of a */
 	double minus[CHUNK],
 		plus[CHUNK]; /* squared lengths of the unit vectors' u - v, u + v */
-	double xyz_a[3 * CHUNK], xyz_b[3 * CHUNK]; /* X's, Y's, Z's */
-	float clean_a[CHUNK], clean_b[CHUNK];
-	unsigned char bad[CHUNK]; /* the pixel has a nonfinite difference */
+	double xyz_a[3 * CHUNK], xyz_b[3 * CHUNK]; /* X's, Y's, Z's; then L's, a's, b's */
+	double angle[CHUNK], fit[CHUNK], colour[CHUNK];
 };
 
 void
@@ -48,6 +52,56 @@ sum_add(struct spec_measure_sum *sum, double value)
 	sum->sum = total;
 }
 
+/* Adds count numbers, LANES of them at a time, each with what its own sum has lost. */
+SPEC_VECTORISED static void
+sum_add_all(struct spec_measure_sum *sum, const double *restrict value, size_t count)
+{
+	double lane[LANES] = {0}, lost[LANES] = {0};
+	size_t i = 0;
+
+	for (; i + LANES <= count; i += LANES) {
+		for (size_t k = 0; k < LANES;
+			k++) { /* Knuth's sum of two, without a branch */
+			double v = value[i + k], total = lane[k] + v,
+			       part = total - lane[k];
+
+			lost[k] += (lane[k] - (total - part)) + (v - part);
+			lane[k] = total;
+		}
+	}
+	for (size_t k = 0; k < LANES; k++) {
+		sum_add(sum, lane[k]);
+		sum->lost += lost[k];
+	}
+	for (; i < count; i++)
+		sum_add(sum, value[i]);
+}
+
+static inline double
+greater(double a, double b)
+{
+	return a > b ? a : b;
+}
+
+/* The largest of sign times each of count numbers, which are not NaN. */
+SPEC_VECTORISED static double
+largest_of(const double *restrict value, size_t count, double sign)
+{
+	double lane[LANES], largest = -INFINITY;
+	size_t i = 0;
+
+	for (size_t k = 0; k < LANES; k++)
+		lane[k] = -INFINITY;
+	for (; i + LANES <= count; i += LANES)
+		for (size_t k = 0; k < LANES; k++)
+			lane[k] = greater(sign * value[i + k], lane[k]);
+	for (; i < count; i++)
+		largest = greater(sign * value[i], largest);
+	for (size_t k = 0; k < LANES; k++)
+		largest = greater(lane[k], largest);
+	return largest;
+}
+
 /* What is lost beside an infinite sum is NaN and means nothing. */
 static double
 sum_value(const struct spec_measure_sum *sum)
@@ -55,66 +109,124 @@ sum_value(const struct spec_measure_sum *sum)
 	return isfinite(sum->sum) ? sum->sum + sum->lost : sum->sum;
 }
 
-/* The bits of a magnitude order as the magnitudes do. */
-SPEC_VECTORISED static float
-largest_magnitude(const float *a, size_t n)
+SPEC_VECTORISED static void
+add_squares(struct chunk *restrict chunk, const float *restrict a, const float *restrict b)
 {
-	int32_t largest = 0, bits;
-	float value;
-	size_t i;
+	for (size_t i = 0; i < chunk->n; i++) {
+		double p = a[i], q = b[i], d = p - q;
 
-	for (i = 0; i < n; i++) {
-		memcpy(&bits, &a[i], sizeof bits);
-		bits &= INT32_MAX;
-		largest = bits > largest ? bits : largest;
+		chunk->aa[i] += p * p;
+		chunk->bb[i] += q * q;
+		chunk->square[i] += d * d;
+		chunk->worst[i] = greater(fabs(d), chunk->worst[i]);
+		chunk->largest[i] = greater(fabs(p), chunk->largest[i]);
 	}
-	memcpy(&value, &largest, sizeof value);
-	return value;
 }
 
+/* Of four bands: the sums are loaded and stored a quarter as often. */
 SPEC_VECTORISED static void
-add_squares(const float *restrict a, const float *restrict b, size_t n, double *restrict aa,
-	double *restrict bb, double *restrict square, double *restrict worst)
+add_four_squares(struct chunk *restrict chunk, const float *const *a, const float *const *b)
 {
-	double p, q, d, magnitude;
-	size_t i;
+	const float *restrict a0 = a[0] + chunk->x0, *restrict a1 = a[1] + chunk->x0;
+	const float *restrict a2 = a[2] + chunk->x0, *restrict a3 = a[3] + chunk->x0;
+	const float *restrict b0 = b[0] + chunk->x0, *restrict b1 = b[1] + chunk->x0;
+	const float *restrict b2 = b[2] + chunk->x0, *restrict b3 = b[3] + chunk->x0;
 
-	for (i = 0; i < n; i++) {
-		p = a[i];
-		q = b[i];
-		d = p - q;
-		magnitude = fabs(d);
-		aa[i] += p * p;
-		bb[i] += q * q;
-		square[i] += d * d;
-		worst[i] = magnitude > worst[i] ? magnitude : worst[i];
+	for (size_t i = 0; i < chunk->n; i++) {
+		double p0 = a0[i], p1 = a1[i], p2 = a2[i], p3 = a3[i];
+		double q0 = b0[i], q1 = b1[i], q2 = b2[i], q3 = b3[i];
+		double d0 = p0 - q0, d1 = p1 - q1, d2 = p2 - q2, d3 = p3 - q3;
+
+		chunk->aa[i] += (p0 * p0 + p1 * p1) + (p2 * p2 + p3 * p3);
+		chunk->bb[i] += (q0 * q0 + q1 * q1) + (q2 * q2 + q3 * q3);
+		chunk->square[i] += (d0 * d0 + d1 * d1) + (d2 * d2 + d3 * d3);
+		chunk->worst[i] = greater(chunk->worst[i],
+			greater(greater(fabs(d0), fabs(d1)), greater(fabs(d2), fabs(d3))));
+		chunk->largest[i] = greater(chunk->largest[i],
+			greater(greater(fabs(p0), fabs(p1)), greater(fabs(p2), fabs(p3))));
 	}
 }
 
 /* scale_a, scale_b: the inverse lengths. Equal spectra cancel exactly. */
 SPEC_VECTORISED static void
-add_units(const float *restrict a, const float *restrict b, size_t n,
-	const double *restrict scale_a, const double *restrict scale_b,
-	double *restrict minus, double *restrict plus)
+add_units(struct chunk *restrict chunk, const float *restrict a, const float *restrict b,
+	const double *restrict scale_a, const double *restrict scale_b)
 {
-	double u, v;
-	size_t i;
+	for (size_t i = 0; i < chunk->n; i++) {
+		double u = a[i] * scale_a[i], v = b[i] * scale_b[i];
 
-	for (i = 0; i < n; i++) {
-		u = a[i] * scale_a[i];
-		v = b[i] * scale_b[i];
-		minus[i] += (u - v) * (u - v);
-		plus[i] += (u + v) * (u + v);
+		chunk->minus[i] += (u - v) * (u - v);
+		chunk->plus[i] += (u + v) * (u + v);
 	}
 }
 
 SPEC_VECTORISED static void
-add_colour(const float *restrict a, size_t n, double wx, double wy, double wz,
+add_four_units(struct chunk *restrict chunk, const float *const *a, const float *const *b,
+	const double *restrict scale_a, const double *restrict scale_b)
+{
+	const float *restrict a0 = a[0] + chunk->x0, *restrict a1 = a[1] + chunk->x0;
+	const float *restrict a2 = a[2] + chunk->x0, *restrict a3 = a[3] + chunk->x0;
+	const float *restrict b0 = b[0] + chunk->x0, *restrict b1 = b[1] + chunk->x0;
+	const float *restrict b2 = b[2] + chunk->x0, *restrict b3 = b[3] + chunk->x0;
+
+	for (size_t i = 0; i < chunk->n; i++) {
+		double s = scale_a[i], t = scale_b[i];
+		double u0 = a0[i] * s, u1 = a1[i] * s, u2 = a2[i] * s, u3 = a3[i] * s;
+		double v0 = b0[i] * t, v1 = b1[i] * t, v2 = b2[i] * t, v3 = b3[i] * t;
+		double m0 = u0 - v0, m1 = u1 - v1, m2 = u2 - v2, m3 = u3 - v3;
+
+		chunk->minus[i] += (m0 * m0 + m1 * m1) + (m2 * m2 + m3 * m3);
+		u0 += v0;
+		u1 += v1;
+		u2 += v2;
+		u3 += v3;
+		chunk->plus[i] += (u0 * u0 + u1 * u1) + (u2 * u2 + u3 * u3);
+	}
+}
+
+/*
+ * The same, and X, Y and Z of both. w: the weights of X, those of Y and Z follow after all
+ * bands.
+ */
+SPEC_VECTORISED static void
+add_four_bands(struct chunk *restrict chunk, const float *const *a, const float *const *b,
+	const double *restrict w, size_t bands)
+{
+	const float *restrict a0 = a[0] + chunk->x0, *restrict a1 = a[1] + chunk->x0;
+	const float *restrict a2 = a[2] + chunk->x0, *restrict a3 = a[3] + chunk->x0;
+	const float *restrict b0 = b[0] + chunk->x0, *restrict b1 = b[1] + chunk->x0;
+	const float *restrict b2 = b[2] + chunk->x0, *restrict b3 = b[3] + chunk->x0;
+	const double *restrict y = w + bands, *restrict z = y + bands;
+	double *restrict xyz_a = chunk->xyz_a, *restrict xyz_b = chunk->xyz_b;
+
+	for (size_t i = 0; i < chunk->n; i++) {
+		double p0 = a0[i], p1 = a1[i], p2 = a2[i], p3 = a3[i];
+		double q0 = b0[i], q1 = b1[i], q2 = b2[i], q3 = b3[i];
+		double d0 = p0 - q0, d1 = p1 - q1, d2 = p2 - q2, d3 = p3 - q3;
+
+		chunk->aa[i] += (p0 * p0 + p1 * p1) + (p2 * p2 + p3 * p3);
+		chunk->bb[i] += (q0 * q0 + q1 * q1) + (q2 * q2 + q3 * q3);
+		chunk->square[i] += (d0 * d0 + d1 * d1) + (d2 * d2 + d3 * d3);
+		chunk->worst[i] = greater(chunk->worst[i],
+			greater(greater(fabs(d0), fabs(d1)), greater(fabs(d2), fabs(d3))));
+		chunk->largest[i] = greater(chunk->largest[i],
+			greater(greater(fabs(p0), fabs(p1)), greater(fabs(p2), fabs(p3))));
+		xyz_a[i] += (w[0] * p0 + w[1] * p1) + (w[2] * p2 + w[3] * p3);
+		xyz_b[i] += (w[0] * q0 + w[1] * q1) + (w[2] * q2 + w[3] * q3);
+		xyz_a[CHUNK + i] += (y[0] * p0 + y[1] * p1) + (y[2] * p2 + y[3] * p3);
+		xyz_b[CHUNK + i] += (y[0] * q0 + y[1] * q1) + (y[2] * q2 + y[3] * q3);
+		xyz_a[2 * CHUNK + i] += (z[0] * p0 + z[1] * p1) + (z[2] * p2 + z[3] * p3);
+		xyz_b[2 * CHUNK + i] += (z[0] * q0 + z[1] * q1) + (z[2] * q2 + z[3] * q3);
+	}
+}
+
+SPEC_VECTORISED static void
+add_colour(const float *restrict a, size_t n, const double *w, size_t bands,
 	double *restrict xyz)
 {
-	size_t i;
+	double wx = w[0], wy = w[bands], wz = w[2 * bands];
 
-	for (i = 0; i < n; i++) {
+	for (size_t i = 0; i < n; i++) {
 		xyz[i] += wx * a[i];
 		xyz[CHUNK + i] += wy * a[i];
 		xyz[2 * CHUNK + i] += wz * a[i];
@@ -172,31 +284,51 @@ count_nonfinite(struct chunk *chunk, int y, struct spec_measure *row)
 	}
 }
 
-static void
-pass_squares(struct chunk *chunk, struct spec_measure *row)
+/* How many bands are taken by fours: what is not finite is replaced band by band. */
+static size_t
+by_fours(const struct chunk *chunk)
 {
-	float largest = row->largest_a, here;
-	const float *a, *b;
-	size_t band;
+	return chunk->dirty ? 0 : chunk->setup->bands / 4 * 4;
+}
 
-	for (band = 0; band < chunk->setup->bands; band++) {
-		fetch(chunk, band, &a, &b);
-		add_squares(
-			a, b, chunk->n, chunk->aa, chunk->bb, chunk->square, chunk->worst);
-		here = largest_magnitude(a, chunk->n);
-		largest = here > largest ? here : largest;
+static void
+pass_bands(struct chunk *chunk)
+{
+	const double *w = chunk->setup->weight_xyz;
+	size_t band = 0, bands = chunk->setup->bands;
+	const float *a, *b;
+
+	memset(chunk->aa, 0, sizeof chunk->aa);
+	memset(chunk->bb, 0, sizeof chunk->bb);
+	memset(chunk->square, 0, sizeof chunk->square);
+	memset(chunk->worst, 0, sizeof chunk->worst);
+	memset(chunk->largest, 0, sizeof chunk->largest);
+	if (w) {
+		memset(chunk->xyz_a, 0, sizeof chunk->xyz_a);
+		memset(chunk->xyz_b, 0, sizeof chunk->xyz_b);
 	}
-	if (isfinite(largest))
-		row->largest_a = largest;
+	for (; band < by_fours(chunk); band += 4) {
+		if (w)
+			add_four_bands(
+				chunk, chunk->a + band, chunk->b + band, w + band, bands);
+		else
+			add_four_squares(chunk, chunk->a + band, chunk->b + band);
+	}
+	for (; band < bands; band++) {
+		fetch(chunk, band, &a, &b);
+		add_squares(chunk, a, b);
+		if (!w)
+			continue;
+		add_colour(a, chunk->n, w + band, bands, chunk->xyz_a);
+		add_colour(b, chunk->n, w + band, bands, chunk->xyz_b);
+	}
 }
 
 /* A float's square never overflows a double: only what is not finite spoils a sum. */
 static int
 squares_spoiled(const struct chunk *chunk)
 {
-	size_t i;
-
-	for (i = 0; i < chunk->n; i++)
+	for (size_t i = 0; i < chunk->n; i++)
 		if (!isfinite(chunk->aa[i] + chunk->bb[i]))
 			return 1;
 	return 0;
@@ -205,141 +337,163 @@ squares_spoiled(const struct chunk *chunk)
 static void
 open_chunk(struct chunk *chunk, int y, struct spec_measure *row)
 {
-	size_t offset = offsetof(struct chunk, aa);
-	float largest = row->largest_a;
-
 	chunk->dirty = 0;
-	memset((char *)chunk + offset, 0, sizeof *chunk - offset);
-	pass_squares(chunk, row);
-	if (!squares_spoiled(chunk))
-		return;
-	chunk->dirty = 1;
-	row->largest_a = largest;
-	memset((char *)chunk + offset, 0, sizeof *chunk - offset);
-	count_nonfinite(chunk, y, row);
-	pass_squares(chunk, row);
+	memset(chunk->bad, 0, sizeof chunk->bad);
+	pass_bands(chunk);
+	if (squares_spoiled(chunk)) {
+		chunk->dirty = 1;
+		count_nonfinite(chunk, y, row);
+		pass_bands(chunk);
+	}
+	for (size_t i = 0; i < chunk->n; i++)
+		if (chunk->largest[i] > (double)row->largest_a)
+			row->largest_a = (float)chunk->largest[i];
+}
+
+/* In one loop the compiler would take an arc only where it is wanted, one by one. */
+SPEC_VECTORISED static void
+find_angles(struct chunk *restrict chunk)
+{
+	for (size_t i = 0; i < chunk->n; i++)
+		chunk->angle[i] =
+			spec_vector_atan2(sqrt(chunk->minus[i]), sqrt(chunk->plus[i]));
+	for (size_t i = 0; i < chunk->n; i++) {
+		double minus = chunk->minus[i], plus = chunk->plus[i], both = minus + plus;
+		double fit = fabs(plus - minus) / both;
+
+		chunk->angle[i] = minus > 0 ? 2 * chunk->angle[i] : 0;
+		chunk->fit[i] = both > 0 ? fit : 1;
+	}
+}
+
+SPEC_VECTORISED static void
+find_scales(const double *restrict square, size_t n, double *restrict scale)
+{
+	for (size_t i = 0; i < n; i++) {
+		double inverse = 1 / sqrt(square[i]);
+
+		scale[i] = square[i] > 0 ? inverse : 0;
+	}
 }
 
 static void
 pass_units(struct chunk *chunk)
 {
 	double scale_a[CHUNK], scale_b[CHUNK];
-	const float *a, *b;
-	size_t band, i;
-
-	for (i = 0; i < chunk->n; i++) {
-		scale_a[i] = chunk->aa[i] > 0 ? 1 / sqrt(chunk->aa[i]) : 0;
-		scale_b[i] = chunk->bb[i] > 0 ? 1 / sqrt(chunk->bb[i]) : 0;
-	}
-	for (band = 0; band < chunk->setup->bands; band++) {
-		fetch(chunk, band, &a, &b);
-		add_units(a, b, chunk->n, scale_a, scale_b, chunk->minus, chunk->plus);
-	}
-}
-
-static void
-pass_colour(struct chunk *chunk)
-{
-	const double *w = chunk->setup->weight_xyz;
-	size_t band, bands = chunk->setup->bands;
+	size_t band = 0;
 	const float *a, *b;
 
-	for (band = 0; band < bands; band++, w++) {
+	memset(chunk->minus, 0, sizeof chunk->minus);
+	memset(chunk->plus, 0, sizeof chunk->plus);
+	find_scales(chunk->aa, chunk->n, scale_a);
+	find_scales(chunk->bb, chunk->n, scale_b);
+	for (; band < by_fours(chunk); band += 4)
+		add_four_units(chunk, chunk->a + band, chunk->b + band, scale_a, scale_b);
+	for (; band < chunk->setup->bands; band++) {
 		fetch(chunk, band, &a, &b);
-		add_colour(a, chunk->n, w[0], w[bands], w[2 * bands], chunk->xyz_a);
-		add_colour(b, chunk->n, w[0], w[bands], w[2 * bands], chunk->xyz_b);
+		add_units(chunk, a, b, scale_a, scale_b);
+	}
+	find_angles(chunk);
+}
+
+/* Of the same XYZ no difference, whatever they are; a NaN could pass a tolerance. */
+static void
+find_colours(struct chunk *chunk)
+{
+	double *const a[3] = {chunk->xyz_a, chunk->xyz_a + CHUNK, chunk->xyz_a + 2 * CHUNK};
+	double *const b[3] = {chunk->xyz_b, chunk->xyz_b + CHUNK, chunk->xyz_b + 2 * CHUNK};
+	unsigned char same[CHUNK];
+
+	for (size_t i = 0; i < chunk->n; i++)
+		same[i] =
+			(a[0][i] == b[0][i]) & (a[1][i] == b[1][i]) & (a[2][i] == b[2][i]);
+	spec_lab_row(chunk->setup->white_xyz, a, chunk->n);
+	spec_lab_row(chunk->setup->white_xyz, b, chunk->n);
+	spec_difference_ciede2000_row((const double *const *)a, (const double *const *)b,
+		chunk->n, chunk->colour);
+	for (size_t i = 0; i < chunk->n; i++) {
+		if (!(chunk->colour[i] <= DBL_MAX))
+			chunk->colour[i] = INFINITY;
+		chunk->colour[i] = same[i] ? 0 : chunk->colour[i];
 	}
 }
 
+/* The first of the values, times sign, that is the most of them, if it is above the extreme. */
 static void
-take_most(struct spec_measure_extreme *most, double value, size_t x, int y)
+take_extreme(const double *value, size_t count, double sign, size_t x, int y,
+	struct spec_measure_extreme *extreme)
 {
-	if (value > most->value)
-		*most = (struct spec_measure_extreme){value, {x, y, 0}};
-}
+	double best = largest_of(value, count, sign);
+	size_t i = 0;
 
-static void
-take_least(struct spec_measure_extreme *least, double value, size_t x, int y)
-{
-	if (value < least->value)
-		*least = (struct spec_measure_extreme){value, {x, y, 0}};
-}
-
-static void
-take_difference(const struct chunk *chunk, size_t i, int y, struct spec_measure *row)
-{
-	size_t band, x = chunk->x0 + i;
-	double d;
-
-	for (band = 0; band < chunk->setup->bands; band++) {
-		d = (double)chunk->a[band][x] - chunk->b[band][x];
-		if (fabs(d) != chunk->worst[i])
-			continue;
-		row->difference.value = chunk->worst[i];
-		row->difference.place = (struct spec_measure_place){x, y, band};
-		row->difference_a = chunk->a[band][x];
-		row->difference_b = chunk->b[band][x];
+	if (!(best > sign * extreme->value))
 		return;
+	while (sign * value[i] != best)
+		i++;
+	*extreme = (struct spec_measure_extreme){value[i], {x + i, y, 0}};
+}
+
+/* The first of the chunk's largest differences: its pixel, then its band. */
+static void
+take_difference(const struct chunk *chunk, int y, struct spec_measure *row)
+{
+	double worst = largest_of(chunk->worst, chunk->n, 1);
+
+	if (!(worst > row->difference.value))
+		return;
+	for (size_t i = 0; i < chunk->n; i++) {
+		size_t x = chunk->x0 + i;
+
+		if (chunk->worst[i] != worst)
+			continue;
+		for (size_t band = 0; band < chunk->setup->bands; band++) {
+			double d = (double)chunk->a[band][x] - chunk->b[band][x];
+
+			if (fabs(d) != worst)
+				continue;
+			row->difference.value = worst;
+			row->difference.place = (struct spec_measure_place){x, y, band};
+			row->difference_a = chunk->a[band][x];
+			row->difference_b = chunk->b[band][x];
+			return;
+		}
 	}
 }
 
+/* Angles, fits and colours of count pixels from the chunk's first on. */
 static void
-take_angle(const struct chunk *chunk, size_t i, int y, struct spec_measure *row)
+take_pixels(const struct chunk *chunk, size_t first, size_t count, int y,
+	struct spec_measure *row)
 {
-	double minus = chunk->minus[i], plus = chunk->plus[i], both = minus + plus;
-	double angle = minus > 0 ? 2 * atan2(sqrt(minus), sqrt(plus)) : 0;
-	double fit = both > 0 ? fabs(plus - minus) / both : 1;
+	size_t x = chunk->x0 + first;
 
-	sum_add(&row->angle, angle);
-	sum_add(&row->fit, fit);
-	take_most(&row->angle_most, angle, chunk->x0 + i, y);
-	take_least(&row->fit_least, fit, chunk->x0 + i, y);
-}
-
-static void
-take_colour(const struct chunk *chunk, size_t i, int y, struct spec_measure *row)
-{
-	double a[3], b[3], lab_a[3], lab_b[3], difference = 0;
-	int c;
-
-	for (c = 0; c < 3; c++) {
-		a[c] = chunk->xyz_a[c * CHUNK + i];
-		b[c] = chunk->xyz_b[c * CHUNK + i];
+	if (chunk->setup->want_angle) {
+		sum_add_all(&row->angle, chunk->angle + first, count);
+		sum_add_all(&row->fit, chunk->fit + first, count);
+		take_extreme(chunk->angle + first, count, 1, x, y, &row->angle_most);
+		take_extreme(chunk->fit + first, count, -1, x, y, &row->fit_least);
 	}
-	if (!(a[0] == b[0] && a[1] == b[1] && a[2] == b[2])) {
-		spec_lab_from_xyz(a, chunk->setup->white_xyz, lab_a);
-		spec_lab_from_xyz(b, chunk->setup->white_xyz, lab_b);
-		difference = spec_difference_ciede2000(lab_a, lab_b);
-		/* A NaN could pass a tolerance; an infinity cannot. */
-		if (!(difference <= DBL_MAX))
-			difference = INFINITY;
+	if (chunk->setup->weight_xyz) {
+		sum_add_all(&row->colour, chunk->colour + first, count);
+		take_extreme(chunk->colour + first, count, 1, x, y, &row->colour_most);
 	}
-	sum_add(&row->colour, difference);
-	take_most(&row->colour_most, difference, chunk->x0 + i, y);
 }
 
 static void
 measure_chunk(struct chunk *chunk, int y, struct spec_measure *row)
 {
-	const struct spec_measure_setup *setup = chunk->setup;
-	size_t i;
-
 	open_chunk(chunk, y, row);
-	if (setup->want_angle)
+	if (chunk->setup->want_angle)
 		pass_units(chunk);
-	if (setup->weight_xyz)
-		pass_colour(chunk);
-	for (i = 0; i < chunk->n; i++) {
-		sum_add(&row->square, chunk->square[i]);
-		if (chunk->worst[i] > row->difference.value)
-			take_difference(chunk, i, y, row);
-		if (chunk->bad[i])
-			continue;
-		if (setup->want_angle)
-			take_angle(chunk, i, y, row);
-		if (setup->weight_xyz)
-			take_colour(chunk, i, y, row);
-	}
+	if (chunk->setup->weight_xyz)
+		find_colours(chunk);
+	sum_add_all(&row->square, chunk->square, chunk->n);
+	take_difference(chunk, y, row);
+	if (!chunk->dirty)
+		take_pixels(chunk, 0, chunk->n, y, row);
+	for (size_t i = 0; i < chunk->n && chunk->dirty; i++)
+		if (!chunk->bad[i])
+			take_pixels(chunk, i, 1, y, row);
 }
 
 void

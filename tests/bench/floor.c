@@ -4,9 +4,10 @@
  * 3 x channels matrix in float into memory. It knows no names, no limits, no pipes and
  * nothing of the suite's reader; only the codec hook is shared.
  *
- *   bench-floor [-j N] [-v] FILE     -v prints the sums of the three planes
+ *   bench-floor [-j N] [-rv] FILE...    -v prints the sums of the three planes
  *
- * FILE: scanlines, FLOAT alone.
+ * FILE: scanlines, FLOAT alone. With -r chunks are read and decompressed, and no more: the
+ * floor of who looks at every sample of several files, which are read in turns.
  */
 #include <libdeflate.h>
 #include <openexr.h>
@@ -32,7 +33,7 @@ struct floor {
 	exr_context_t context;
 	int y0, height, lines;
 	size_t width, channels;
-	int deflated;
+	int deflated, reads_alone;
 	float *weight; /* [channels][3] */
 	float *result; /* [height][3][width] */
 	atomic_int next, failed;
@@ -143,7 +144,7 @@ work(void *argument)
 		started = 1;
 		if (result == EXR_ERR_SUCCESS)
 			result = exr_decoding_run(floor->context, 0, &pipeline);
-		if (result == EXR_ERR_SUCCESS)
+		if (result == EXR_ERR_SUCCESS && !floor->reads_alone)
 			multiply(floor, &pipeline);
 	}
 	if (result != EXR_ERR_SUCCESS)
@@ -181,7 +182,9 @@ measure(struct floor *floor)
 	floor->deflated =
 		compression == EXR_COMPRESSION_ZIP || compression == EXR_COMPRESSION_ZIPS;
 	floor->weight = malloc(floor->channels * 3 * sizeof(float));
-	floor->result = calloc((size_t)floor->height * 3 * floor->width, sizeof(float));
+	floor->result =
+		calloc(floor->reads_alone ? 1 : (size_t)floor->height * 3 * floor->width,
+			sizeof(float));
 	if (!floor->weight || !floor->result)
 		die("out of memory");
 	for (size_t i = 0; i < floor->channels; i++) {
@@ -205,40 +208,53 @@ print_sums(const struct floor *floor)
 	printf("%.9g %.9g %.9g\n", sum[0], sum[1], sum[2]);
 }
 
+static void
+run(struct floor *floor, const char *path, int threads)
+{
+	exr_context_initializer_t setup = EXR_DEFAULT_CONTEXT_INITIALIZER;
+	pthread_t thread[MOST_THREADS];
+	int started = 1;
+
+	if (exr_start_read(&floor->context, path, &setup) != EXR_ERR_SUCCESS)
+		exit(2); /* the library has said why */
+	measure(floor);
+	for (; started < threads; started++) {
+		if (pthread_create(&thread[started], NULL, work, floor) != 0)
+			break;
+	}
+	work(floor);
+	for (int i = 1; i < started; i++)
+		pthread_join(thread[i], NULL);
+	if (floor->failed)
+		die("the pixels cannot be read");
+}
+
 int
 main(int argc, char **argv)
 {
-	exr_context_initializer_t setup = EXR_DEFAULT_CONTEXT_INITIALIZER;
-	int threads = (int)sysconf(_SC_NPROCESSORS_ONLN), verbose = 0, option, started = 1;
-	pthread_t thread[MOST_THREADS];
-	static struct floor floor;
+	int threads = (int)sysconf(_SC_NPROCESSORS_ONLN), verbose = 0, alone = 0, option;
 
-	while ((option = getopt(argc, argv, "j:v")) != -1) {
+	while ((option = getopt(argc, argv, "j:rv")) != -1) {
 		if (option == 'j')
 			threads = atoi(optarg);
+		else if (option == 'r')
+			alone = 1;
 		else if (option == 'v')
 			verbose = 1;
 		else
 			return 2;
 	}
-	if (optind + 1 != argc || threads < 1 || threads > MOST_THREADS)
-		die("usage: bench-floor [-j N] [-v] FILE");
-	if (exr_start_read(&floor.context, argv[optind], &setup) != EXR_ERR_SUCCESS)
-		return 2; /* the library has said why */
-	measure(&floor);
-	for (; started < threads; started++) {
-		if (pthread_create(&thread[started], NULL, work, &floor) != 0)
-			break;
+	if (optind >= argc || threads < 1 || threads > MOST_THREADS || (alone && verbose))
+		die("usage: bench-floor [-j N] [-rv] FILE...");
+	for (; optind < argc; optind++) {
+		struct floor floor = {.reads_alone = alone};
+
+		run(&floor, argv[optind], threads);
+		if (verbose)
+			print_sums(&floor);
+		exr_finish(&floor.context);
+		free(floor.weight);
+		free(floor.result);
 	}
-	work(&floor);
-	for (int i = 1; i < started; i++)
-		pthread_join(thread[i], NULL);
-	if (floor.failed)
-		die("the pixels cannot be read");
-	if (verbose)
-		print_sums(&floor);
-	exr_finish(&floor.context);
-	free(floor.weight);
-	free(floor.result);
 	return 0;
 }
