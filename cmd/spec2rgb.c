@@ -1,5 +1,7 @@
 /* spec2rgb - what an eye sees of a spectral image, as a picture; see spec2rgb(1). */
+#include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/number.h"
@@ -8,6 +10,7 @@
 #include "cli/progress.h"
 #include "colour/observer.h"
 #include "compare/falsecolour.h"
+#include "image/account.h"
 #include "image/develop.h"
 #include "image/layer.h"
 #include "image/level.h"
@@ -44,6 +47,14 @@ static const struct cli_option options[] = {
 	{'f', "format", "SUFFIX",
 		"of the output, such as ppm (default: the suffix of -o, else png)"},
 	{0, "bits", "8|16|32", "bits per sample (default: as the format has them)"},
+	{0, "rule", "cie|grid|astm",
+		"integrate by 1 nm, over the image's own wavelengths, or by the\n"
+		"weights of ASTM E308 for reflectance (default: cie)"},
+	{0, "white", "1|100",
+		"Y of the perfect reflector, and of light of 1 per nm\n(default: 1)"},
+	{0, "absolute", NULL, "Y in cd/m^2, of light that is a radiance"},
+	{'v', "verbose", NULL,
+		"tell how it was integrated, on standard error and in OpenEXR"},
 	{0, "model", "hsv|hsl|yuv|cmyk",
 		"the components of a colour model, as an OpenEXR image"},
 	{0, "layer", "NAME",
@@ -82,13 +93,18 @@ struct job {
 	struct spec_level level;
 	const char *level_option; /* that gave it, or null */
 	int error;                /* of the level is printed */
-	int bits;
+	enum spec_rule rule;
+	const char *white; /* or null */
+	enum spec_rgb_scale scale;
+	int bits, absolute, verbose;
 	const char *layer;            /* or null */
 	struct spec_view_setup shown; /* what a false colour is of */
 	struct spec_falsecolour_setup painted;
 	int ranged;                                    /* its range was given */
 	const char *of_colours, *of_scales, *of_bands; /* such an option, or null */
 	struct spec_settings settings;
+	char *account;    /* of --verbose, once it is planned */
+	double luminance; /* of 1, then; 0 where it is not told */
 };
 
 static enum spec_status
@@ -110,6 +126,35 @@ take_level(struct job *job, const char *name, const char *value, struct spec_err
 	job->level_option = name;
 	return strcmp(name, "step") == 0 ? spec_level_parse_step(value, &job->level, error)
 					 : spec_level_parse(value, &job->level, error);
+}
+
+static enum spec_status
+take_white(struct job *job, const char *value, struct spec_error *error)
+{
+	if (strcmp(value, "1") != 0 && strcmp(value, "100") != 0)
+		return spec_error_set(error, SPEC_EUSAGE,
+			"the Y of white is 1 or 100, not '%.40s'", value);
+	job->white = value;
+	return SPEC_OK;
+}
+
+/* Those of the sums. */
+static enum spec_status
+take_sums(struct job *job, const char *name, const char *value, int *known,
+	struct spec_error *error)
+{
+	*known = 1;
+	if (strcmp(name, "rule") == 0)
+		return spec_rule_find(value, &job->rule, error);
+	if (strcmp(name, "white") == 0)
+		return take_white(job, value, error);
+	if (strcmp(name, "absolute") == 0)
+		job->absolute = 1;
+	else if (strcmp(name, "verbose") == 0)
+		job->verbose = 1;
+	else
+		*known = 0;
+	return SPEC_OK;
 }
 
 /* The options that say how colours are seen. */
@@ -146,7 +191,7 @@ take_colours(struct job *job, const char *name, const char *value, int *known,
 		job->model = spec_model_find(value, error);
 		status = job->model ? SPEC_OK : SPEC_EUSAGE;
 	} else {
-		*known = 0;
+		status = take_sums(job, name, value, known, error);
 	}
 	if (*known)
 		job->of_colours = name;
@@ -236,6 +281,27 @@ take_option(void *state, const char *name, const char *value, struct spec_error 
 	return status;
 }
 
+/* What changes the light, or is made for a white of 1, contradicts another scale. */
+static void
+find_scale(struct cli *cli, struct job *job)
+{
+	const struct spec_look *look = &job->look;
+
+	if (job->absolute && job->white)
+		cli_usage(cli, "--absolute and --white exclude each other");
+	if (job->absolute)
+		job->scale = SPEC_RGB_ABSOLUTE;
+	else if (job->white && strcmp(job->white, "100") == 0)
+		job->scale = SPEC_RGB_HUNDRED;
+	if (job->scale == SPEC_RGB_ONE)
+		return;
+	if (job->model || job->exposure != 0 || look->metering != SPEC_METERING_NONE ||
+		look->gamut || look->tone.kind ||
+		job->space.coordinates == SPEC_COORDINATES_LAB)
+		cli_usage(cli, "--absolute and --white 100 are for plain sums: without "
+			       "--exposure, --tone, --gamut, --model and Lab");
+}
+
 static void
 parse(struct cli *cli, struct job *job)
 {
@@ -262,22 +328,42 @@ parse(struct cli *cli, struct job *job)
 	if (job->of_bands && job->of_colours)
 		cli_usage(cli, "--%s makes false colours, which --%s does not change",
 			job->of_bands, job->of_colours);
+	find_scale(cli, job);
 	job->look.space = &job->space;
 	if (job->transfer)
 		job->space.transfer = job->transfer;
 }
 
-/* The sums that the options ask for, in a space. */
+/* What a picture's 1 is stays known where nothing else changes the light. */
 static enum spec_status
-plan(const struct job *job, const struct spec_reader *reader,
-	const struct spec_image *image, const struct spec_space *space,
-	struct spec_rgb *rgb, struct spec_error *error)
+tell(struct job *job, const char *name, const struct spec_image *image,
+	const struct spec_rgb_setup *setup, const struct spec_rgb *rgb,
+	struct spec_error *error)
+{
+	double luminance = spec_account_luminance(setup, rgb);
+	enum spec_status status =
+		spec_account_text(image, setup, rgb, &job->account, error);
+
+	if (isfinite(luminance) && job->look.metering == SPEC_METERING_NONE &&
+		job->look.gamut != SPEC_GAMUT_SCALE && !job->look.tone.kind)
+		job->luminance = luminance;
+	if (status == SPEC_OK)
+		fprintf(stderr, "%s: %s: %s\n", program.name, name, job->account);
+	return status;
+}
+
+/* The sums that the options ask for, in a space; told of and scaled where it is the picture's. */
+static enum spec_status
+plan(struct job *job, const struct spec_reader *reader, const struct spec_image *image,
+	const struct spec_space *space, struct spec_rgb *rgb, struct spec_error *error)
 {
 	struct spec_curve observer = {0}, illuminant = {0};
 	struct spec_rgb_setup setup = {.observer = &observer,
 		.illuminant = &illuminant,
 		.space = space,
-		.exposure = job->exposure};
+		.exposure = job->exposure,
+		.rule = job->rule,
+		.scale = space == &job->space ? job->scale : SPEC_RGB_ONE};
 	enum spec_status status = spec_observer_load(job->observer, &observer, error);
 
 	if (status == SPEC_OK)
@@ -289,6 +375,8 @@ plan(const struct job *job, const struct spec_reader *reader,
 		if (status != SPEC_OK)
 			spec_error_prefix(error, "%s", spec_reader_name(reader));
 	}
+	if (status == SPEC_OK && job->verbose && space == &job->space)
+		status = tell(job, spec_reader_name(reader), image, &setup, rgb, error);
 	spec_curve_free(&observer);
 	spec_curve_free(&illuminant);
 	return status;
@@ -296,7 +384,7 @@ plan(const struct job *job, const struct spec_reader *reader,
 
 /* Leaves bands out as the options ask for; *report: what --error prints. */
 static enum spec_status
-leave_out(const struct job *job, struct spec_reader *reader, const struct spec_image *image,
+leave_out(struct job *job, struct spec_reader *reader, const struct spec_image *image,
 	struct spec_rgb *rgb, struct spec_level_report *report, struct spec_error *error)
 {
 	struct spec_rgb seen = {0};
@@ -382,6 +470,13 @@ develop(struct job *job, struct spec_reader *reader, const struct spec_rgb *rgb,
 		kind.sample == SPEC_PICTURE_FLOAT)
 		status = spec_error_set(error, SPEC_EUSAGE,
 			"--transfer is for whole numbers: floats stay linear");
+	if (status == SPEC_OK && job->scale != SPEC_RGB_ONE &&
+		kind.sample != SPEC_PICTURE_FLOAT)
+		status = spec_error_set(error, SPEC_EUSAGE,
+			"--absolute and --white 100 are for floats, such as those of "
+			"OpenEXR: whole numbers end at 1");
+	kind.account = job->account;
+	kind.luminance = job->luminance;
 	if (status == SPEC_OK)
 		status = spec_output_open(&output, job->settings.output, error);
 	if (status != SPEC_OK)
@@ -562,6 +657,7 @@ main(int argc, char **argv)
 	else
 		show_colours(&cli, &job, reader, image, argc, argv, &progress);
 	spec_image_clear(&chosen);
+	free(job.account);
 	spec_reader_close(reader);
 	return 0;
 }

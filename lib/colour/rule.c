@@ -16,7 +16,7 @@
 
 static const struct {
 	const char *name, *title;
-} rules[] = {{"cie", "sums by the observer's steps of 1 nm (CIE 15:2018)"},
+} rules[] = {{"cie", "sums by the observer's steps (CIE 15:2018)"},
 	{"grid", "the trapezoid over the image's own wavelengths"},
 	{"astm", "the weights of ASTM E308-15, made by ASTM E2022-11"}};
 

@@ -21,7 +21,7 @@ enum spec_status spec_rule_find(
 
 const char *spec_rule_name(enum spec_rule rule);
 
-/* What a rule is, in words for a reader, such as "sums by 1 nm (CIE 15:2018)". */
+/* What a rule is, in words for a reader, such as "the trapezoid over the image's own wavelengths". */
 const char *spec_rule_title(enum spec_rule rule);
 
 /* What the weights of an image are besides themselves. */

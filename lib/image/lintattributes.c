@@ -22,7 +22,8 @@ static const struct {
 	{"longitude", "float"}, {"latitude", "float"}, {"altitude", "float"},
 	{"capDate", "string"}, {"utcOffset", "float"}, {"spec:representation", "string"},
 	{"spec:wavelengths", "string"}, {"spec:medium", "string"}, {"spec:samples", "int"},
-	{"spec:atlas", "string"}, {"spec:atlas-lines", "string"}};
+	{"spec:atlas", "string"}, {"spec:atlas-lines", "string"},
+	{"spec:integration", "string"}, {"whiteLuminance", "float"}};
 
 static void
 check_types(struct spec_linting *linting)

@@ -42,6 +42,25 @@ say_space(
 		image, "chromaticities", "chromaticities", xy, sizeof xy, error);
 }
 
+/* whiteLuminance is OpenEXR's: the luminance of R = G = B = 1. */
+static enum spec_status
+say_sums(struct spec_image *image, const struct spec_picture *picture,
+	struct spec_error *error)
+{
+	const struct spec_space *space = picture->space;
+	float luminance = (float)picture->kind.luminance;
+	enum spec_status status = SPEC_OK;
+
+	if (picture->kind.account)
+		status = spec_image_set_text(
+			image, "spec:integration", picture->kind.account, error);
+	if (status == SPEC_OK && luminance > 0 && space &&
+		space->coordinates == SPEC_COORDINATES_RGB)
+		status = spec_image_set_attribute(image, "whiteLuminance", "float",
+			&luminance, sizeof luminance, error);
+	return status;
+}
+
 static enum spec_status
 describe(struct spec_image *image, const struct spec_picture *picture,
 	const struct layout *layout, struct spec_error *error)
@@ -56,6 +75,8 @@ describe(struct spec_image *image, const struct spec_picture *picture,
 			picture->kind.half ? SPEC_SAMPLE_HALF : SPEC_SAMPLE_FLOAT, error);
 	if (status == SPEC_OK)
 		status = say_space(image, picture->space, error);
+	if (status == SPEC_OK)
+		status = say_sums(image, picture, error);
 	if (status == SPEC_OK)
 		status = spec_image_index(image, picture->output->path, error);
 	return status;

@@ -952,3 +952,131 @@ greys() {
   done
   no_leftovers . a.exr
 }
+
+# Rules of integration, and what Y is
+
+# xyz FILE OPTION...: X, Y and Z of its first pixel.
+xyz() {
+  local file=$1
+  shift
+  spec2rgb --space xyz "$@" "$file" -o of.exr || return 1
+  layers --print 0,0 of.exr | sort | awk '{ printf "%s%s", s, $2; s = " " } END { print "" }'
+}
+
+# close TOLERANCE WANTED FOUND: numbers, each within the relative tolerance.
+close() {
+  awk -v tolerance="$1" -v wanted="$2" -v found="$3" 'BEGIN {
+    n = split(wanted, w); if (split(found, f) != n) exit 1
+    for (i = 1; i <= n; i++) { off = f[i] - w[i]; if (off < 0) off = -off; if (!(off <= tolerance * w[i])) exit 1 }
+  }' || complain "$3 instead of $2"
+}
+
+@test "--rule: the perfect reflector by every rule, from 400 to 700 nm" {
+  spectral white.exr --kind T --grid 400:700:10 --pattern constant:1
+  # By the CIE's sums what lies outside is missing: 4.02e-4 of Y under D65. The weights of ASTM E308
+  # collect it, and make its white point, 95.047 100 108.883; the trapezoid divides by its own sum.
+  close 1e-5 '94.8731 99.9598 108.5623' "$(xyz white.exr --white 100 --rule cie)"
+  close 1e-5 '94.8731 99.9598 108.5623' "$(xyz white.exr --white 100)"
+  close 2e-5 '95.047 100 108.883' "$(xyz white.exr --white 100 --rule astm)"
+  close 1e-6 '0.948602 1 1.084602' "$(xyz white.exr --rule grid)"
+  # X of A by 20 nm and the observer of 1964: the sum of that column of ASTM E308-15, 111.146.
+  spectral wide.exr --kind T --grid 360:780:20 --pattern constant:1
+  close 2e-5 '111.144 100 35.200' "$(xyz wide.exr --white 100 --rule astm --observer 1964 --illuminant A)"
+}
+
+@test "--rule grid: light is the trapezoid, over the observer's sum of 106.8569" {
+  spectral light.exr --grid 540:560:10 --pattern constant:1
+  # y of 540, 550, 560 nm: .954, .99495, .995; half a step at the ends.
+  y=$(xyz light.exr --rule grid -q | cut -d ' ' -f 2)
+  close 1e-6 "$(awk 'BEGIN { printf "%.9f", (5 * .954 + 10 * .9949501 + 5 * .995) / 106.8569 }')" "$y"
+  spectral bins.exr --grid 550:560:10 --bins --pattern constant:1
+  y=$(xyz bins.exr --rule grid -q | cut -d ' ' -f 2)
+  close 1e-6 "$(awk 'BEGIN { printf "%.9f", (10 * .9949501 + 10 * .995) / 106.8569 }')" "$y"
+}
+
+@test "--absolute: candelas per square metre, by the efficacy of each observer" {
+  spectral light.exr --grid 360:830:1 --pattern constant:1
+  # 683 lm/W times 106.8569 nm; the spectrum of equal energy has nearly X = Y = Z.
+  close 1e-6 72983.27 "$(xyz light.exr --absolute | cut -d ' ' -f 2)"
+  close 1e-6 72983.27 "$(xyz light.exr --absolute --rule grid | cut -d ' ' -f 2)"
+  # 1700.06 lm/W times the sum of V' by 1 nm.
+  sum=$(awk '/^[0-9]/ { sum += $2 } END { printf "%.6f", sum * 1700.06 }' "$ROOT/spectra/cmf/v-scotopic.spd")
+  close 1e-5 "$sum" "$(xyz light.exr --space srgb --absolute --observer v-scotopic | cut -d ' ' -f 2)"
+  # A line of 540 THz, here of 0.016 nm times 1000, has 683 cd/m^2 per W m^-2 sr^-1 to every observer.
+  printf '%s\n' '# quantity: radiance' '# unit: W m^-2 sr^-1 nm^-1' '555 0' '555.016 1000' '555.032 0' >line.spd
+  specconvert -g 555:555.032:0.016 --patches 1x1 line.spd -o line.exr
+  for observer in 1931 1964 2015-2 2015-10; do
+    y=$(xyz line.exr --absolute --rule grid --observer $observer -q | cut -d ' ' -f 2)
+    close 5e-6 10928 "$y"
+  done
+}
+
+@test "--absolute: reflectance under a light of known radiance" {
+  spectral half.exr --kind T --grid 360:830:5 --pattern constant:0.5
+  fails_cleanly spec2rgb --absolute half.exr -o x.exr
+  [[ $stderr = *'half.exr: reflectance has a luminance only under an illuminant whose quantity is a radiance, and '*D65*' tells ratios alone' ]]
+  printf '%s\n' '# quantity: radiance' '# unit: W m^-2 sr^-1 nm^-1' '360 0.02' '830 0.02' >lamp.spd
+  for rule in cie grid; do
+    close 1e-5 "$(awk 'BEGIN { print 683 * 106.8569 * 0.01 }')" "$(xyz half.exr --absolute --rule $rule --illuminant lamp.spd | cut -d ' ' -f 2)"
+  done
+}
+
+@test "-v tells the sums, also in OpenEXR with the luminance of white" {
+  spectral light.exr --grid 360:830:5 --pattern constant:1
+  spectral card.exr --kind T --grid 400:700:10 --pattern constant:1
+  spec2rgb -v -e 1 light.exr -o x.exr 2>said
+  grep -qx "spec2rgb: light.exr: rule cie, sums by the observer's steps (CIE 15:2018); observer CIE 1931 .*, by 1 nm; Y = 1: 1 per nm at all wavelengths, 72983.27 cd/m^2 by 683 lm/W; outside: 0.00 % of Y" said
+  exrheader x.exr >header
+  grep -q '^spec:integration (type string): "rule cie, .*72983.27 cd/m^2 by 683 lm/W; outside: 0.00 % of Y"$' header
+  grep -qx 'whiteLuminance (type float): 36491.6' header
+  specinfo --check x.exr | grep -v 'note: file: ' | { run ! grep .; }
+  spec2rgb -v --absolute light.exr -o x.exr 2>said
+  grep -q '; Y in cd/m^2, by 683 lm/W; ' said
+  exrheader x.exr | grep -qx 'whiteLuminance (type float): 1'
+  # Reflectance has none, and a tone curve leaves none; whole numbers say nothing of it.
+  spec2rgb -v --rule astm --illuminant A card.exr -o x.exr 2>said
+  grep -qx "spec2rgb: card.exr: rule astm, .*; illuminant CIE standard illuminant A; Y = 1: the perfect reflector; outside: 0\... % of Y" said
+  exrheader x.exr | { run ! grep whiteLuminance; }
+  spec2rgb -v --tone reinhard light.exr -o x.exr 2>said
+  exrheader x.exr | { run ! grep whiteLuminance; }
+  spec2rgb -v light.exr -o x.png 2>said
+  [ "$(wc -l <said)" -eq 1 ]
+  spec2rgb light.exr -o y.png
+  cmp x.png y.png
+  spec2rgb light.exr -o x.exr
+  exrheader x.exr | { run ! grep -e spec:integration -e whiteLuminance; }
+}
+
+@test "rules and scales that are refused" {
+  spectral light.exr --grid 400:700:10
+  spectral five.exr --kind T --grid 400:700:5
+  spectral odd.exr --kind T --grid 405:695:10
+  spectral bins.exr --kind T --grid 400:700:10 --bins
+  fails_cleanly spec2rgb --rule trapezoid light.exr -o x.png
+  [[ $stderr = *"'trapezoid' is no rule of integration: cie, grid or astm" ]]
+  fails_cleanly spec2rgb --rule astm light.exr -o x.png
+  [[ $stderr = *'light.exr: the weights of ASTM E308 are for reflectance and transmittance, not for light' ]]
+  fails_cleanly spec2rgb --rule astm five.exr -o x.png
+  [[ $stderr = *'five.exr: ASTM E308 has weights for bands 10 or 20 nm apart, not for these' ]]
+  fails_cleanly spec2rgb --rule astm odd.exr -o x.png
+  [[ $stderr = *'odd.exr: bands at 405, 415, … nm are not among those of the table of ASTM E308, 360, 370, … nm' ]]
+  fails_cleanly spec2rgb --rule astm bins.exr -o x.png
+  [[ $stderr = *'bins.exr: the weights of ASTM E308 are for samples at points, not for means over bins' ]]
+  fails_cleanly spec2rgb --white 10 light.exr -o x.exr
+  [[ $stderr = *"the Y of white is 1 or 100, not '10'" ]]
+  fails_cleanly spec2rgb --white 1 --absolute light.exr -o x.exr
+  for option in --absolute '--white 100'; do
+    for other in '-e 1' '-e auto' '--tone filmic' '--gamut scale' '--space lab' '--model hsv'; do
+      # shellcheck disable=SC2086 # several words
+      fails_cleanly spec2rgb $option $other light.exr -o x.exr
+    done
+    # shellcheck disable=SC2086 # several words
+    fails_cleanly spec2rgb $option light.exr -o x.png
+    [[ $stderr = *'are for floats, such as those of OpenEXR: whole numbers end at 1' ]]
+  done
+  fails_cleanly spec2rgb --absolute --observer cie2006-lms-2 light.exr -o x.exr
+  [[ $stderr = *'has no luminous efficiency, and so no luminance' ]]
+  spectral ratio.exr --grid 400:700:10 --quantity absorptance
+  fails_cleanly spec2rgb --absolute ratio.exr -o x.exr
+  no_leftovers . light.exr five.exr odd.exr bins.exr ratio.exr
+}

@@ -318,7 +318,7 @@ compare_charts(const char *light_name, int by_lab)
 		near(difference, 0, 2, checker[i].name);
 		sum += difference;
 	}
-	near(sum / COUNT(checker), 0, 1, light_name);
+	near(sum / (double)COUNT(checker), 0, 1, light_name);
 	spec_curve_free(&light);
 }
 
