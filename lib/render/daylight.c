@@ -224,7 +224,8 @@ spec_daylight_make(struct spec_daylight *daylight, const struct spec_scene_dayli
 		(struct spec_daylight){.bands = bands->count, .has_sun = light->has_sun};
 	daylight->axes = (struct spec_frame){
 		vector_of(light->east), vector_of(light->north), vector_of(light->up)};
-	status = spec_dome_make(&light->sun, &light->atmosphere, &daylight->dome, error);
+	status = spec_dome_make(
+		&light->sun, &light->sunlight.atmosphere, &daylight->dome, error);
 	if (status == SPEC_OK) {
 		daylight->sun_sr = spec_dome_disc_sr(&daylight->dome);
 		daylight->sun =
@@ -232,7 +233,8 @@ spec_daylight_make(struct spec_daylight *daylight, const struct spec_scene_dayli
 		status = share_bands(daylight, bands, error);
 	}
 	if (status == SPEC_OK)
-		status = light_ground(daylight, light->atmosphere.ground_albedo, error);
+		status = light_ground(
+			daylight, light->sunlight.atmosphere.ground_albedo, error);
 	return status == SPEC_OK ? share_directions(daylight, error) : status;
 }
 

@@ -11,6 +11,7 @@
 #include "image/names.h"
 #include "image/samples.h"
 #include "image/save.h"
+#include "place/placed.h"
 #include "render/sums.h"
 #include "render/variance.h"
 
@@ -231,6 +232,24 @@ set_windows(struct spec_render *render, struct spec_error *error)
 	return SPEC_OK;
 }
 
+/* Where the camera says it stands, or else the daylight, and when. */
+static enum spec_status
+set_place(struct spec_render *render, struct spec_error *error)
+{
+	const struct spec_scene *scene = render->scene;
+	const struct spec_place *place = scene->has_place ? &scene->place : NULL;
+	const struct spec_instant *instant = NULL;
+
+	for (size_t i = 0; i < scene->lights; i++) {
+		if (!scene->light[i].daylight)
+			continue;
+		instant = &scene->light[i].daylight->sunlight.instant;
+		if (!place)
+			place = &scene->light[i].daylight->sunlight.place;
+	}
+	return spec_placed_set(&render->image, place, instant, error);
+}
+
 static enum spec_status
 make_header(struct spec_render *render, struct spec_error *error)
 {
@@ -249,6 +268,8 @@ make_header(struct spec_render *render, struct spec_error *error)
 	if (status == SPEC_OK)
 		status = spec_samples_set(
 			image, render->setup.samples, "the rendered image", error);
+	if (status == SPEC_OK)
+		status = set_place(render, error);
 	if (status == SPEC_OK)
 		status = add_bands(render, "", sample_of(render), error);
 	if (status == SPEC_OK && render->setup.variance)

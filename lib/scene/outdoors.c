@@ -6,7 +6,7 @@
 #include "base/memory.h"
 #include "place/coordinates.h"
 #include "place/instant.h"
-#include "place/sun.h"
+#include "place/sunlight.h"
 #include "scene/transform.h"
 
 #define PI 3.14159265358979323846
@@ -65,28 +65,13 @@ read_time(const struct spec_arguments *arguments, struct spec_instant *instant)
 }
 
 static enum spec_status
-find_sun(const struct spec_arguments *arguments, const struct spec_place *place,
-	struct spec_clearsky_sun *sun)
+find_sun(const struct spec_arguments *arguments, struct spec_scene_daylight *daylight)
 {
 	struct spec_error cause = {0};
-	struct spec_instant instant;
-	struct spec_solar solar;
-	enum spec_status status = read_time(arguments, &instant);
+	enum spec_status status =
+		spec_sunlight_sun(&daylight->sunlight, &daylight->sun, &cause);
 
-	if (status != SPEC_OK)
-		return status;
-	status = spec_solar_position(place, &instant, NULL, &solar, &cause);
-	if (status != SPEC_OK)
-		return blame(arguments, "time", status, &cause);
-	if (!(solar.zenith_refracted_deg < 90))
-		return spec_arguments_fail(arguments,
-			spec_arguments_find(arguments, "time"), SPEC_ERANGE,
-			"is when the sun is %.2f degrees below the horizon",
-			solar.zenith_refracted_deg - 90);
-	*sun = (struct spec_clearsky_sun){.zenith_deg = solar.zenith_refracted_deg,
-		.azimuth_deg = solar.azimuth_deg,
-		.distance_au = solar.distance_au};
-	return SPEC_OK;
+	return status == SPEC_OK ? status : blame(arguments, "time", status, &cause);
 }
 
 /* ---- axes ---- */
@@ -177,25 +162,39 @@ static enum spec_status
 read_atmosphere(const struct spec_arguments *arguments, const struct spec_place *place,
 	struct spec_atmosphere *atmosphere)
 {
-	struct spec_error cause = {0};
 	double turbidity;
 	enum spec_status status;
 
 	*atmosphere = spec_atmosphere_default();
+	atmosphere->pressure_hpa = spec_air_standard(place->altitude_m).pressure_hpa;
 	turbidity = atmosphere->turbidity;
 	status = spec_arguments_number(arguments, "turbidity", SPEC_TURBIDITY_LOWEST,
 		SPEC_TURBIDITY_HIGHEST, &turbidity);
 	if (status == SPEC_OK)
 		status = spec_arguments_number(
 			arguments, "albedo", 0, 1, &atmosphere->ground_albedo);
+	return status == SPEC_OK ? spec_atmosphere_set_turbidity(
+					   atmosphere, turbidity, arguments->error)
+				 : status;
+}
+
+static enum spec_status
+read_daylight(const struct spec_arguments *arguments, const struct spec_transform *world,
+	struct spec_scene_daylight *daylight)
+{
+	struct spec_sunlight *sunlight = &daylight->sunlight;
+	enum spec_status status = read_place(arguments, "place", &sunlight->place);
+
 	if (status == SPEC_OK)
-		status = spec_atmosphere_set_turbidity(
-			atmosphere, turbidity, arguments->error);
-	if (status != SPEC_OK)
-		return status;
-	atmosphere->pressure_hpa = spec_air_standard(place->altitude_m).pressure_hpa;
-	status = spec_atmosphere_check(atmosphere, &cause);
-	return status == SPEC_OK ? status : blame(arguments, "place", status, &cause);
+		status = read_time(arguments, &sunlight->instant);
+	if (status == SPEC_OK)
+		status =
+			read_atmosphere(arguments, &sunlight->place, &sunlight->atmosphere);
+	if (status == SPEC_OK)
+		status = find_sun(arguments, daylight);
+	if (status == SPEC_OK)
+		status = spec_arguments_flag(arguments, "sun", &daylight->has_sun);
+	return status == SPEC_OK ? read_axes(arguments, world, daylight) : status;
 }
 
 enum spec_status
@@ -204,23 +203,14 @@ spec_outdoors_daylight(
 {
 	struct spec_scene_daylight *daylight =
 		spec_memory_new(1, sizeof *daylight, "daylight", arguments->error);
-	struct spec_place place;
-	enum spec_status status;
 
 	if (!daylight)
 		return SPEC_ENOMEM;
+	daylight->has_sun = 1;
 	light->daylight = daylight;
 	light->spectrum = (struct spec_scene_spectrum){
 		.kind = SPEC_SCENE_CONSTANT, .value = 1, .place = light->place};
-	daylight->has_sun = 1;
-	status = read_place(arguments, "place", &place);
-	if (status == SPEC_OK)
-		status = find_sun(arguments, &place, &daylight->sun);
-	if (status == SPEC_OK)
-		status = read_atmosphere(arguments, &place, &daylight->atmosphere);
-	if (status == SPEC_OK)
-		status = spec_arguments_flag(arguments, "sun", &daylight->has_sun);
-	return status == SPEC_OK ? read_axes(arguments, &light->world, daylight) : status;
+	return read_daylight(arguments, &light->world, daylight);
 }
 
 /* ---- cameras ---- */
@@ -261,7 +251,10 @@ spec_outdoors_face(const struct spec_arguments *arguments, struct spec_transform
 		column[i] = camera->m[i % 4][i / 4];
 	if (status == SPEC_OK)
 		status = spec_transform_concat(&view, column, arguments->error);
-	if (status == SPEC_OK)
-		*camera = view;
-	return status;
+	if (status != SPEC_OK)
+		return status;
+	*camera = view;
+	arguments->scene->has_place = 1;
+	arguments->scene->place = from;
+	return SPEC_OK;
 }

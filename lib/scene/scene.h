@@ -10,7 +10,7 @@
 #include <stdint.h>
 
 #include "base/error.h"
-#include "place/clearsky.h"
+#include "place/sunlight.h"
 #include "spectrum/curve.h"
 #include "spectrum/spectrum.h"
 
@@ -91,8 +91,8 @@ enum spec_scene_light_kind {
 
 /* The sun and a clear sky, somewhere and at some time. */
 struct spec_scene_daylight {
+	struct spec_sunlight sunlight; /* place, instant, atmosphere; no plane */
 	struct spec_clearsky_sun sun;
-	struct spec_atmosphere atmosphere;
 	int has_sun; /* else the sky alone */
 	double east[3], north[3],
 		up[3]; /* in world space: unit vectors across each other */
@@ -115,6 +115,8 @@ struct spec_scene {
 	char **file; /* names, for messages */
 
 	struct spec_transform camera; /* world from camera */
+	int has_place;                /* it says where it stands: */
+	struct spec_place place;
 	int all_around; /* latitude and longitude around the camera's y: no fov, screen, lens */
 	double fov_deg;   /* of the shorter side */
 	double screen[4]; /* x0, x1, y0, y1 of the screen window; see has_screen */

@@ -107,6 +107,7 @@ spec_parser_camera(struct spec_parser *parser, struct spec_statement *statement)
 
 	if (!sort)
 		return parser->error->status;
+	scene->has_place = 0;
 	if (!sort->number)
 		status = spec_arguments_check(&arguments, perspective);
 	if (status == SPEC_OK && !sort->number)

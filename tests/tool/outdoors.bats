@@ -108,6 +108,26 @@ as_good_as() {
   [ "$status" = 1 ]
 }
 
+@test "the image says where and when, as the camera or else the light does" {
+  scene a.pbrt '' "LightSource \"daylight\" $leuven $noon"
+  render a.pbrt -o a.exr
+  has_line a.exr 'latitude (type float): 50.88'
+  has_line a.exr 'longitude (type float): 4.7'
+  has_line a.exr 'capDate (type string): "2005:05:17 12:00:00"'
+  has_line a.exr 'utcOffset (type float): -7200'
+  [[ $(specinfo --sun own a.exr) = *'elevation 53.109'* ]] || complain "$(specinfo --sun own a.exr)"
+  scene b.pbrt 'Camera "perspective" "string place" "10S 20W 99m" "string toward" "0N 0E"'
+  render b.pbrt -o b.exr
+  has_line b.exr 'latitude (type float): -10'
+  has_line b.exr 'altitude (type float): 99'
+  exrheader b.exr >header
+  run ! grep capDate header
+  scene c.pbrt ''
+  render c.pbrt -o c.exr
+  exrheader c.exr >header
+  run ! grep -E 'latitude|utcOffset' header
+}
+
 @test "no sun, no place, no time" {
   for light in "$leuven" "$noon" "$leuven"' "string time" "2005-05-17T23:30:00+02:00"' "$leuven"' "string time" "2005-05-17T12:00:00"' \
     '"string place" "91N 0E" '"$noon" "$leuven $noon \"float turbidity\" .5" "$leuven $noon \"float albedo\" -1" \
@@ -118,7 +138,7 @@ as_good_as() {
   done
   scene a.pbrt '' "LightSource \"daylight\" $leuven \"string time\" \"2005-05-17T23:30:00+02:00\""
   fails_cleanly specrender a.pbrt -o b.exr
-  [[ $stderr = *"'time' of LightSource \"daylight\" is when the sun is 14."*' degrees below the horizon' ]] || complain "$stderr"
+  [[ $stderr = *"'time' of LightSource \"daylight\" is refused: at 50.88 N 4.7 E on 2005-05-17T23:30:00+02:00 the sun is 14."*' degrees below the horizon, and the light of twilight and night is not known' ]] || complain "$stderr"
   scene a.pbrt '' "LightSource \"daylight\" $leuven $noon" 'LightSource "infinite" "float L" 1'
   fails_cleanly specrender a.pbrt -o b.exr
   [[ $stderr = *'a second infinite light cannot be rendered yet'* ]] || complain "$stderr"

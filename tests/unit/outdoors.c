@@ -86,21 +86,25 @@ test_sun(void **state)
 	expect_near(is->sun.zenith_deg, solar.zenith_refracted_deg, 1e-9, "its zenith");
 	expect_near(is->sun.azimuth_deg, solar.azimuth_deg, 1e-9, "its azimuth");
 	expect_near(is->sun.distance_au, solar.distance_au, 1e-9, "its distance");
-	assert_true(is->has_sun && is->atmosphere.ground_albedo == 0.2);
-	assert_true(is->atmosphere.turbidity == 3);
+	assert_true(is->sunlight.place.latitude_deg == 50.88);
+	assert_true(spec_instant_between(&instant, &is->sunlight.instant) == 0);
+	assert_true(!scene.has_place && is->has_sun &&
+		    is->sunlight.atmosphere.ground_albedo == 0.2);
+	assert_true(is->sunlight.atmosphere.turbidity == 3);
 	spec_scene_free(&scene);
 
 	parse(&scene, "WorldBegin " DAYLIGHT NOON
 		      "\"bool sun\" false \"float turbidity\" 2 \"float albedo\" .7");
 	is = scene.light[0].daylight;
-	assert_true(!is->has_sun && is->atmosphere.ground_albedo == 0.7);
-	assert_true(is->atmosphere.turbidity == 2);
+	assert_true(!is->has_sun && is->sunlight.atmosphere.ground_albedo == 0.7);
+	assert_true(is->sunlight.atmosphere.turbidity == 2);
 	spec_scene_free(&scene);
 
 	parse(&scene, "WorldBegin " DAYLIGHT "\"string place\" \"27.99N 86.93E 5300m\" "
 		      "\"string time\" \"2005-05-17T12:00:00+06:00\"");
 	/* The standard atmosphere's at 5300 m. */
-	expect_near(scene.light[0].daylight->atmosphere.pressure_hpa, 519, 2, "pressure");
+	expect_near(scene.light[0].daylight->sunlight.atmosphere.pressure_hpa, 519, 2,
+		"pressure");
 	spec_scene_free(&scene);
 }
 
@@ -197,6 +201,7 @@ test_views(void **state)
 	expect_near(scene.camera.m[0][3], 5, 1e-9, "the eye");
 	expect_near(scene.camera.m[1][3], 1.5, 1e-9, "the eye");
 	expect_near(scene.camera.m[2][3], -2, 1e-9, "the eye");
+	assert_true(scene.has_place && scene.place.longitude_deg == 4.70);
 	spec_scene_free(&scene);
 }
 
@@ -215,8 +220,13 @@ test_faults(void **state)
 		{SPEC_ERANGE,
 			"WorldBegin " DAYLIGHT LEUVEN
 			"\"string time\" \"2005-05-17T00:00:00+02:00\"",
-			"t.pbrt:1:65: 'time' of LightSource \"daylight\" is when the sun is "
-			"16.6"},
+			"t.pbrt:1:65: 'time' of LightSource \"daylight\" is refused: at 50.88 N "
+			"4.7 E on 2005-05-17T00:00:00+02:00 the sun is 16.6"},
+		{SPEC_ERANGE,
+			"WorldBegin " DAYLIGHT "\"string place\" \"50.88N 4.70E 21km\" "
+			"\"string time\" \"2005-05-17T12:00Z\"",
+			"t.pbrt:1:70: 'time' of LightSource \"daylight\" is refused: the "
+			"light at an altitude of 21000 m is not known"},
 		{SPEC_EUSAGE, "WorldBegin " DAYLIGHT LEUVEN "\"string time\" \"noon\"",
 			"t.pbrt:1:65: 'time' of LightSource \"daylight\" is refused: "},
 		{SPEC_EUSAGE, "WorldBegin " DAYLIGHT "\"string place\" \"Leuven\"",
@@ -568,7 +578,7 @@ render_plane(const char *text, const char *grid_text, unsigned samples, double *
 		square += pow(PI / .6 * radiance[0], 2) / samples;
 	}
 	check(spec_dome_make(&scene.light[0].daylight->sun,
-		      &scene.light[0].daylight->atmosphere, dome, &error),
+		      &scene.light[0].daylight->sunlight.atmosphere, dome, &error),
 		&error);
 	spec_path_room_free(room);
 	spec_render_close(&render);
