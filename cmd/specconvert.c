@@ -21,6 +21,8 @@
 #include "image/represented.h"
 #include "image/strip.h"
 #include "image/writer.h"
+#include "place/own.h"
+#include "place/placed.h"
 #include "spectrum/abscissa.h"
 #include "spectrum/air.h"
 #include "spectrum/operation.h"
@@ -70,6 +72,8 @@ static const struct cli_option options[] = {
 	{0, "paper", "'#RRGGBB'", "what is behind it (default: '#ffffff')"},
 	{0, "atlas", NULL, "pack curves into an image, four samples in each pixel"},
 	{0, "row", "NAME", "take the curve of that name out of such an image"},
+	{0, "place", "PLACE", "say where the image was taken"},
+	{0, "time", "TIME", "say when: ISO 8601 with an offset, or now"},
 	{0, "crop", "X0,Y0,X1,Y1",
 		"keep these pixels of the data window; x1, y1 are not in it"},
 	{0, "downsample", "N", "mean of N x N pixels"},
@@ -116,6 +120,7 @@ struct job {
 	int strip;                       /* its height, or 0 */
 	enum spec_strip_scaling scaling; /* of the strip */
 	struct spec_fromrgb_setup colours;
+	struct spec_placed placed;
 	int from_rgb, as;             /* the options were given */
 	unsigned long long clamped;   /* pixels whose colour was out of range */
 	int csv;                      /* the text is comma-separated values */
@@ -178,6 +183,11 @@ take_operation(struct job *job, const char *name, const char *text, int *known,
 
 	*known = 1;
 	job->operation = list;
+	if (status == SPEC_OK && text && spec_own_light_is_named(text) &&
+		spec_operation_defer(name, text, &job->operation[job->setup.operations])) {
+		job->setup.operations++;
+		return SPEC_OK;
+	}
 	if (status == SPEC_OK)
 		status = spec_operation_parse(
 			name, text, &job->operation[job->setup.operations], known, error);
@@ -402,6 +412,9 @@ take(void *state, const char *name, const char *value, struct spec_error *error)
 	status = take_curves(job, name, value, &known, error);
 	if (known)
 		return status;
+	status = spec_placed_take(&job->placed, name, value, &known, error);
+	if (known)
+		return status;
 	return spec_settings_take(&job->settings, name, value, &known, error);
 }
 
@@ -569,6 +582,8 @@ write_chart(struct job *job, const struct spec_curve *curve, int argc, char **ar
 		patches.rows = 1;
 	}
 	status = spec_patches_image(&image, curve, job->inputs, &patches, error);
+	if (status == SPEC_OK)
+		status = spec_placed_apply(&job->placed, &image, error);
 	if (status == SPEC_OK && job->settings.history)
 		status = spec_image_add_history(&image, argc, argv, error);
 	if (status == SPEC_OK)
@@ -669,6 +684,9 @@ convert_curves(const struct cli *cli, struct job *job, int argc, char **argv,
 		status = settle_format(job, 1, error);
 	if (status == SPEC_OK)
 		status = check_curve_options(job, error);
+	if (status == SPEC_OK)
+		status = spec_placed_check(&job->placed,
+			job->text || job->strip || job->atlas, &job->settings, error);
 	if (status == SPEC_OK && job->has_to)
 		return spec_reshape_save(
 			job->input[0], &reshape, &job->to, job->settings.output, error);
@@ -807,8 +825,12 @@ convert_bands(const struct cli *cli, struct job *job, struct spec_reader *reader
 	char **argv, struct spec_error *error)
 {
 	struct spec_convert convert = {0};
-	enum spec_status status = spec_convert_plan(&convert, spec_reader_image(reader),
-		&job->setup, spec_reader_name(reader), error);
+	enum spec_status status = spec_own_settle(job->operation, job->setup.operations,
+		spec_reader_image(reader), spec_reader_name(reader), error);
+
+	if (status == SPEC_OK)
+		status = spec_convert_plan(&convert, spec_reader_image(reader), &job->setup,
+			spec_reader_name(reader), error);
 
 	if (status == SPEC_OK && job->settings.history)
 		status = spec_image_add_history(&convert.image, argc, argv, error);
@@ -835,6 +857,10 @@ convert_image(const struct cli *cli, struct job *job, int argc, char **argv,
 			&reader, job->input, job->inputs, &job->settings, error);
 	else if (status == SPEC_OK)
 		status = spec_reader_open(&reader, job->input[0], &job->settings, error);
+	if (status == SPEC_OK)
+		status = spec_placed_check(&job->placed, job->text, &job->settings, error);
+	if (status == SPEC_OK)
+		status = spec_placed_apply(&job->placed, spec_reader_header(reader), error);
 	if (status == SPEC_OK && job->text)
 		status = image_to_text(job, reader, error);
 	else if (status == SPEC_OK && job->from_rgb)

@@ -260,8 +260,9 @@ check_curves(struct spec_linting *linting)
 	}
 }
 
+/* longitude, latitude, utcOffset: what they may be at most. */
 static void
-check_place(struct spec_linting *linting, const char *name, float most)
+check_place(struct spec_linting *linting, const char *name, float most, const char *unit)
 {
 	const struct spec_attribute *attribute = spec_image_attribute(linting->image, name);
 	float value;
@@ -271,8 +272,43 @@ check_place(struct spec_linting *linting, const char *name, float most)
 		return;
 	memcpy(&value, attribute->value, sizeof value);
 	if (!(fabsf(value) <= most))
-		spec_linting_add(linting, SPEC_LINT_WARNING, name,
-			"is %g degrees, beyond %g", value, most);
+		spec_linting_add(linting, SPEC_LINT_WARNING, name, "is %g %s, beyond %g",
+			value, unit, most);
+}
+
+/* "YYYY:MM:DD hh:mm:ss", with digits that a calendar and a clock can show. */
+static int
+is_date(const char *text)
+{
+	int field[6], end = 0;
+
+	if (sscanf(text, "%4d:%2d:%2d %2d:%2d:%2d%n", &field[0], &field[1], &field[2],
+		    &field[3], &field[4], &field[5], &end) < 6 ||
+		end != 19 || text[end] || strspn(text, "0123456789: ") != 19)
+		return 0;
+	return field[1] >= 1 && field[1] <= 12 && field[2] >= 1 && field[2] <= 31 &&
+	       field[3] <= 23 && field[4] <= 59 && field[5] <= 60;
+}
+
+static void
+check_date(struct spec_linting *linting)
+{
+	char *text = text_of(linting, "capDate");
+
+	if (text && !is_date(text))
+		spec_linting_add(linting, SPEC_LINT_WARNING, "capDate",
+			"is '%.40s', not YYYY:MM:DD hh:mm:ss", text);
+	free(text);
+}
+
+/* Half of what says where or when. */
+static void
+check_pair(struct spec_linting *linting, const char *one, const char *other)
+{
+	if (spec_image_attribute(linting->image, one) &&
+		!spec_image_attribute(linting->image, other))
+		spec_linting_add(
+			linting, SPEC_LINT_NOTE, one, "means nothing without %s", other);
 }
 
 void
@@ -290,6 +326,12 @@ spec_linting_attributes(struct spec_linting *linting)
 		check_curves(linting);
 	}
 	check_history(linting);
-	check_place(linting, "longitude", 180);
-	check_place(linting, "latitude", 90);
+	check_place(linting, "longitude", 180, "degrees");
+	check_place(linting, "latitude", 90, "degrees");
+	check_place(linting, "utcOffset", 86400, "s");
+	check_date(linting);
+	check_pair(linting, "longitude", "latitude");
+	check_pair(linting, "latitude", "longitude");
+	check_pair(linting, "capDate", "utcOffset");
+	check_pair(linting, "utcOffset", "capDate");
 }

@@ -306,6 +306,12 @@ spec_reader_image(const struct spec_reader *reader)
 	return &reader->image;
 }
 
+struct spec_image *
+spec_reader_header(struct spec_reader *reader)
+{
+	return &reader->image;
+}
+
 const char *
 spec_reader_name(const struct spec_reader *reader)
 {

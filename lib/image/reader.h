@@ -45,6 +45,9 @@ void spec_reader_close(struct spec_reader *reader);
 enum spec_status spec_reader_drain(struct spec_reader *reader, struct spec_error *error);
 
 const struct spec_image *spec_reader_image(const struct spec_reader *reader);
+
+/* The same image, to set attributes of before it is used; nothing else of it may change. */
+struct spec_image *spec_reader_header(struct spec_reader *reader);
 const char *spec_reader_name(const struct spec_reader *reader);
 
 /* The format's name, such as "OpenEXR". */

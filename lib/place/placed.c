@@ -6,7 +6,8 @@
 #include <string.h>
 
 #include "image/reader.h"
-#include "image/settings.h"
+#include "image/writer.h"
+#include "image/writing.h"
 
 /* A float attribute; *there: the image has it. */
 static enum spec_status
@@ -189,4 +190,48 @@ spec_placed_set(struct spec_image *image, const struct spec_place *place,
 	else if (place && status == SPEC_OK)
 		status = set_number(image, "altitude", place->altitude_m, error);
 	return instant && status == SPEC_OK ? set_instant(image, instant, error) : status;
+}
+
+enum spec_status
+spec_placed_take(struct spec_placed *placed, const char *name, const char *value,
+	int *known, struct spec_error *error)
+{
+	*known = 1;
+	if (strcmp(name, "place") == 0) {
+		placed->has_place = 1;
+		return spec_place_parse(value, &placed->place, error);
+	}
+	if (strcmp(name, "time") == 0) {
+		placed->has_time = 1;
+		return spec_instant_parse(value, &placed->instant, error);
+	}
+	*known = 0;
+	return SPEC_OK;
+}
+
+enum spec_status
+spec_placed_check(const struct spec_placed *placed, int is_text,
+	const struct spec_settings *settings, struct spec_error *error)
+{
+	const struct spec_writing_format *format = &spec_writing_exr;
+	enum spec_status status = SPEC_OK;
+
+	if (!placed->has_place && !placed->has_time)
+		return SPEC_OK;
+	if (!is_text)
+		status = spec_writer_choose(
+			settings->output, settings->format, &format, error);
+	if (status == SPEC_OK && (is_text || format != &spec_writing_exr))
+		return spec_error_set(error, SPEC_EUSAGE,
+			"only OpenEXR files say where and when they were taken (--place, "
+			"--time)");
+	return status;
+}
+
+enum spec_status
+spec_placed_apply(const struct spec_placed *placed, struct spec_image *image,
+	struct spec_error *error)
+{
+	return spec_placed_set(image, placed->has_place ? &placed->place : NULL,
+		placed->has_time ? &placed->instant : NULL, error);
 }

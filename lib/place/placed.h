@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "image/image.h"
+#include "image/settings.h"
 #include "place/coordinates.h"
 #include "place/instant.h"
 
@@ -23,6 +24,25 @@ enum spec_status spec_placed_of_image(const struct spec_image *image, const char
 /* Those of the header of a file, or of standard input where path is "-". */
 enum spec_status spec_placed_of_file(const char *path, struct spec_place *place,
 	struct spec_instant *instant, struct spec_error *error);
+
+/* What options say of where and when; {0} at first. */
+struct spec_placed {
+	int has_place, has_time;
+	struct spec_place place;
+	struct spec_instant instant;
+};
+
+/* Takes an option: place or time. *known 0: it is neither. Errors: those of the parsers. */
+enum spec_status spec_placed_take(struct spec_placed *placed, const char *name,
+	const char *value, int *known, struct spec_error *error);
+
+/* SPEC_EUSAGE: they say something, and the output, text or another format, cannot hold it. */
+enum spec_status spec_placed_check(const struct spec_placed *placed, int is_text,
+	const struct spec_settings *settings, struct spec_error *error);
+
+/* Sets what the options say. SPEC_ENOMEM. */
+enum spec_status spec_placed_apply(const struct spec_placed *placed,
+	struct spec_image *image, struct spec_error *error);
 
 /*
  * Sets the attributes, those of the place or the instant that are not null; an altitude of 0

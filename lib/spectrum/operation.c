@@ -8,20 +8,36 @@
 #include "spectrum/lookup.h"
 #include "spectrum/product.h"
 
+static const char *const names[] = {
+	[SPEC_OPERATION_MULTIPLY] = "multiply",
+	[SPEC_OPERATION_DIVIDE] = "divide",
+	[SPEC_OPERATION_ADD] = "add",
+	[SPEC_OPERATION_SCALE] = "scale",
+	[SPEC_OPERATION_RAISE] = "raise",
+	[SPEC_OPERATION_CLAMP] = "clamp",
+	[SPEC_OPERATION_ILLUMINATE] = "illuminate",
+	[SPEC_OPERATION_REFLECTANCE_OF] = "reflectance-of",
+};
+
+int
+spec_operation_defer(
+	const char *option, const char *value, struct spec_operation *operation)
+{
+	int lights = strcmp(option, names[SPEC_OPERATION_ILLUMINATE]) == 0;
+
+	if (!lights && strcmp(option, names[SPEC_OPERATION_REFLECTANCE_OF]) != 0)
+		return 0;
+	*operation = (struct spec_operation){
+		.kind = lights ? SPEC_OPERATION_ILLUMINATE : SPEC_OPERATION_REFLECTANCE_OF,
+		.value = value,
+		.deferred = 1};
+	return 1;
+}
+
 enum spec_status
 spec_operation_parse(const char *option, const char *value,
 	struct spec_operation *operation, int *known, struct spec_error *error)
 {
-	static const char *const names[] = {
-		[SPEC_OPERATION_MULTIPLY] = "multiply",
-		[SPEC_OPERATION_DIVIDE] = "divide",
-		[SPEC_OPERATION_ADD] = "add",
-		[SPEC_OPERATION_SCALE] = "scale",
-		[SPEC_OPERATION_RAISE] = "raise",
-		[SPEC_OPERATION_CLAMP] = "clamp",
-		[SPEC_OPERATION_ILLUMINATE] = "illuminate",
-		[SPEC_OPERATION_REFLECTANCE_OF] = "reflectance-of",
-	};
 	size_t kind = 0, kinds = sizeof names / sizeof *names;
 
 	*operation = (struct spec_operation){0};

@@ -25,6 +25,7 @@ struct spec_operation {
 	const char *value;       /* of the option, or null */
 	double number;
 	double low, high; /* low <= high */
+	int deferred;     /* its curve is still to be filled in */
 };
 
 /*
@@ -36,6 +37,13 @@ struct spec_operation {
  */
 enum spec_status spec_operation_parse(const char *option, const char *value,
 	struct spec_operation *operation, int *known, struct spec_error *error);
+
+/*
+ * The same of an operation with light (illuminate, reflectance-of) whose curve is not known
+ * yet: it is deferred. Returns whether the option is one of these; else nothing is done.
+ */
+int spec_operation_defer(
+	const char *option, const char *value, struct spec_operation *operation);
 void spec_operation_free(struct spec_operation *operation);
 
 /* What messages call its curve: its title, else what the option says. */

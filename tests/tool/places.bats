@@ -148,3 +148,66 @@ trouble() {
   trouble "a.exr: its capDate, 'yesterday', is not YYYY:MM:DD hh:mm:ss" specinfo --sun own a.exr
   trouble "'D65' is a curve, and --sun own is for images" specinfo --sun own D65
 }
+
+@test "specconvert says where and when" {
+  spectral a.exr --grid 400:700:20 --number altitude=7
+  specconvert --place "$golden" --time $noonish a.exr -o b.exr
+  exrheader b.exr >header
+  grep -q '^longitude (type float): -105.179$' header
+  grep -q '^latitude (type float): 39.7425$' header
+  grep -q '^altitude (type float): 1830.14$' header
+  grep -q '^capDate (type string): "2003:10:17 12:30:30"$' header
+  grep -q '^utcOffset (type float): 25200$' header
+  specinfo --check b.exr
+  # Samples stay; a place alone is told, too, and of charts and other representations.
+  cmp <(specconvert -f spd a.exr) <(specconvert -f spd b.exr)
+  specconvert --place '10N 20E' b.exr -o c.exr
+  exrheader c.exr >header
+  grep -q '^longitude (type float): 20$' header
+  grep -q '^capDate (type string): "2003:10:17 12:30:30"$' header
+  run ! grep -q ^altitude header
+  specconvert --place "$golden" --patches 1x1 D65 -o d.exr
+  exrheader d.exr | grep -q '^longitude (type float): -105.179$'
+  specconvert --place "$golden" --to fourier:5 a.exr -o e.exr
+  exrheader e.exr | grep -q '^longitude (type float): -105.179$'
+}
+
+@test "what has no place for a place" {
+  spectral a.exr --grid 400:700:20
+  trouble 'only OpenEXR files say where and when' specconvert --place "$golden" a.exr -o a.hdr
+  trouble 'only OpenEXR files say where and when' specconvert --time $noonish a.exr -o a.spd
+  trouble 'only OpenEXR files say where and when' specconvert --place "$golden" D65
+  trouble 'is no place' specconvert --place elsewhere a.exr
+  trouble 'does not say in which zone' specconvert --time 2003-10-17T12:30:30 a.exr
+  no_leftovers . a.exr
+}
+
+# A white matt surface has the reflectance 1 in the light of its own place and time; the light is
+# that of the names of spd(5), 1/pi of it.
+@test "reflectance in the light of a file's own place and time" {
+  printf '%s\n' '# quantity: reflectance' '380 1' '780 1' >white.spd
+  specconvert -g 400:700:20 --patches 1x1 white.spd --place '50.875N 4.75E' --time 2005-05-17T12:00+02:00 -o white.exr
+  specconvert --illuminate daylight white.exr -o lit.exr
+  specconvert -f spd lit.exr | grep '^[0-9]' >lit
+  specconvert -g 400:700:20 --scale 0.3183098861837907 'daylight@50.875N 4.75E,2005-05-17T12:00+02:00' |
+    grep '^[0-9]' >wanted
+  paste lit wanted | awk '{ off = $2 / $4 - 1; if (off > 1e-6 || off < -1e-6) exit 1 } END { exit NR != 16 }'
+  specconvert --reflectance-of daylight lit.exr | specconvert -f spd | grep '^[0-9]' |
+    awk '{ off = $2 - 1; if (off > 2e-7 || off < -2e-7) exit 1 } END { exit NR != 16 }'
+  # Options of the light change it, and other things than light are no daylight.
+  specconvert --illuminate daylight,turbidity=6 white.exr | specconvert -f spd | grep '^[0-9]' >murky
+  run ! cmp -s lit murky
+  trouble "no spectrum 'daylight'" specconvert --multiply daylight lit.exr
+  trouble 'turbidity is outside 1..10' specconvert --illuminate daylight,turbidity=60 white.exr
+}
+
+@test "daylight where there is none" {
+  spectral a.exr --grid 400:700:20
+  trouble 'a.exr: does not say where it was taken' specconvert --reflectance-of daylight a.exr
+  specconvert --place '50N 5E' a.exr -o b.exr
+  trouble 'b.exr: does not say when it was taken' specconvert --reflectance-of daylight b.exr
+  trouble 'the sun is' specconvert --time 2005-05-17T23:00+02:00 --reflectance-of daylight b.exr
+  [[ $stderr = *'degrees below the horizon'* ]]
+  trouble 'the sun is' specconvert --place '80N 5E' --time 2005-12-17T12:00Z --reflectance-of daylight a.exr
+  no_leftovers . a.exr b.exr
+}

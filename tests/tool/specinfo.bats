@@ -899,6 +899,19 @@ END
   checks 1 a.exr 'warning: latitude: is 90.5 degrees, beyond 90'
   spectral b.exr --number longitude=180.5 --number latitude=-90
   checks 1 b.exr 'warning: longitude: is 180.5 degrees, beyond 180'
+  spectral c.exr --number utcOffset=-86401 --attribute 'capDate=2026:01:02 03:04:05'
+  checks 1 c.exr 'warning: utcOffset: is -86401 s, beyond 86400'
+}
+
+@test "finding: times that are none, and half of a place or time" {
+  for date in 2026-01-02T03:04:05 '2026:01:02 03:04' '2026:13:02 03:04:05' '2026:01:02 24:04:05' '2026:01:02 03:04:5 '; do
+    spectral a.exr --number utcOffset=-3600 --attribute "capDate=$date"
+    checks 1 a.exr "warning: capDate: is '$date', not YYYY:MM:DD hh:mm:ss"
+  done
+  spectral b.exr --number utcOffset=-3600 --number latitude=3
+  checks 0 b.exr 'note: latitude: means nothing without longitude' 'note: utcOffset: means nothing without capDate'
+  spectral c.exr --attribute 'capDate=2026:01:02 03:04:05' --number longitude=3
+  checks 0 c.exr 'note: longitude: means nothing without latitude' 'note: capDate: means nothing without utcOffset'
 }
 
 # --check: the file, layers, geometry

@@ -1,0 +1,86 @@
+#include "place/own.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "base/text.h"
+#include "place/placed.h"
+#include "place/sunlight.h"
+
+#define NAME "daylight"
+#define PI 3.14159265358979323846
+
+int
+spec_own_light_is_named(const char *name)
+{
+	size_t length = strlen(NAME);
+
+	return strncmp(name, NAME, length) == 0 &&
+	       (name[length] == '\0' || name[length] == ',');
+}
+
+/* As sunlight.h names the light of such a place and time; to be freed. */
+static enum spec_status
+spell(const char *name, const struct spec_place *place, const struct spec_instant *instant,
+	struct spec_text *text, struct spec_error *error)
+{
+	char time[SPEC_INSTANT_WRITTEN];
+	enum spec_status status = spec_text_open(text, error);
+
+	if (status != SPEC_OK)
+		return status;
+	spec_instant_format(instant, 0, time);
+	fprintf(text->stream, NAME "@%.9f %.9f %.4fm,%s%s", place->latitude_deg,
+		place->longitude_deg, place->altitude_m, time, name + strlen(NAME));
+	fputc('\0', text->stream);
+	return spec_text_close(text, error);
+}
+
+enum spec_status
+spec_own_light(const char *name, const struct spec_image *image, const char *file,
+	struct spec_curve *curve, struct spec_error *error)
+{
+	struct spec_place place;
+	struct spec_instant instant;
+	struct spec_text text = {0};
+	enum spec_status status =
+		spec_placed_of_image(image, file, &place, &instant, error);
+
+	*curve = (struct spec_curve){0};
+	if (status != SPEC_OK)
+		return status;
+	status = spell(name, &place, &instant, &text, error);
+	if (status == SPEC_OK) {
+		status = spec_sunlight_named(text.bytes, curve, error);
+		if (status != SPEC_OK)
+			spec_error_prefix(error, "%s", file);
+		/* It would point into what nobody wrote. */
+		if (error)
+			error->place[0] = '\0';
+	}
+	spec_text_free(&text);
+	for (size_t i = 0; i < curve->count && status == SPEC_OK; i++)
+		curve->value[i] /= PI;
+	if (status == SPEC_OK)
+		status = spec_curve_set_text(&curve->quantity, "radiance per nm", error);
+	if (status == SPEC_OK)
+		status = spec_curve_set_text(&curve->unit, "W m-2 sr-1 nm-1", error);
+	if (status != SPEC_OK)
+		spec_curve_free(curve);
+	return status;
+}
+
+enum spec_status
+spec_own_settle(struct spec_operation *operation, size_t operations,
+	const struct spec_image *image, const char *file, struct spec_error *error)
+{
+	enum spec_status status = SPEC_OK;
+
+	for (size_t i = 0; i < operations && status == SPEC_OK; i++) {
+		if (operation[i].deferred)
+			status = spec_own_light(operation[i].value, image, file,
+				&operation[i].curve, error);
+		operation[i].deferred = 0;
+	}
+	return status;
+}
