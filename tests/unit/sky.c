@@ -416,7 +416,8 @@ integrate_flat(const struct spec_dome *dome, double sum[SPEC_DOME_BANDS])
 
 	memset(sum, 0, SPEC_DOME_BANDS * sizeof *sum);
 	for (int i = 0; i < rings * turns; i++) {
-		double z = sqrt((i / turns + .5) / rings), r = sqrt(1 - z * z);
+		int ring = i / turns;
+		double z = sqrt((ring + .5) / rings), r = sqrt(1 - z * z);
 		double azimuth = 2 * PI * (i % turns + .5) / turns, sky[SPEC_DOME_BANDS];
 
 		spec_dome_sky(dome, (double[]){r * cos(azimuth), r * sin(azimuth), z}, sky);
@@ -436,7 +437,8 @@ integrate_around(const struct spec_dome *dome, double sum[SPEC_DOME_BANDS])
 
 	memset(sum, 0, SPEC_DOME_BANDS * sizeof *sum);
 	for (int i = 0; i < rings * turns; i++) {
-		double gamma = PI * (i / turns + .5) / rings,
+		int ring = i / turns;
+		double gamma = PI * (ring + .5) / rings,
 		       a = 2 * PI * (i % turns + .5) / turns;
 		double d[3], sky[SPEC_DOME_BANDS];
 
