@@ -181,12 +181,16 @@ start(const struct spec_clearsky_sun *sun, const struct spec_atmosphere *atmosph
 
 	if (status != SPEC_OK)
 		return status;
-	if (!(sun->zenith_deg >= 0 && sun->zenith_deg < 90))
+	if (sun->zenith_deg >= 90)
 		return spec_error_set(error, SPEC_ERANGE,
 			"the sun is %.2f degrees below the horizon, and the model of a "
 			"clear sky is for the day",
 			sun->zenith_deg - 90);
-	status = check_range("the sun's distance in au", sun->distance_au, .9, 1.1, error);
+	status = check_range(
+		"the sun's zenith angle in degrees", sun->zenith_deg, 0, 90, error);
+	if (status == SPEC_OK)
+		status = check_range(
+			"the sun's distance in au", sun->distance_au, .9, 1.1, error);
 	if (status == SPEC_OK)
 		status =
 			check_range("the plane's tilt in degrees", tilt_deg, 0, 180, error);

@@ -57,6 +57,7 @@ spctral2_is_that_of_its_authors(void **state)
 		{320.0, 0.722819, 0.0938211, 0.10857, 0.171456},
 		{350.0, 0.98603, 0.30439, 0.206687, 0.410711},
 		{400.0, 1.49507, 0.717152, 0.274637, 0.755323},
+		{410, 1.71966, 0.874312, 0.307391, 0.893416},
 		{450.0, 2.02664, 1.22582, 0.325499, 1.14713},
 		{510.0, 1.9478, 1.35159, 0.24005, 1.14598},
 		{593.0, 1.78708, 1.3093, 0.154487, 1.03207},
@@ -184,6 +185,32 @@ planes_get_what_faces_them(void **state)
 	spec_curve_free(&flat);
 }
 
+/*
+ * Without aerosol, ground and water, at 1070 nm, where nothing else absorbs: B 3-5 alone, half
+ * of what molecules scatter, whatever the height of the sun.
+ */
+static void
+half_of_what_molecules_scatter_comes_down(void **state)
+{
+	struct spec_atmosphere atmosphere = spec_atmosphere_default();
+
+	(void)state;
+	atmosphere.aerosol_depth = atmosphere.ground_albedo = atmosphere.water_cm = 0;
+	for (double zenith = 0; zenith < 90; zenith += 4.99) {
+		struct spec_clearsky_sun sun = {zenith, 0, 1};
+		struct spec_curve curve;
+		double outside, through;
+
+		expect_ok(spec_clearsky_curve(&sun, &atmosphere, NULL, &curve, &error));
+		outside = at(&curve, SPEC_CLEARSKY_OUTSIDE, 1070);
+		through = at(&curve, SPEC_CLEARSKY_DIRECT, 1070) / outside;
+		near(at(&curve, SPEC_CLEARSKY_SKY, 1070),
+			outside * cos(zenith * RADIANS) * (1 - pow(through, .95)) / 2,
+			1e-12, "the sky");
+		spec_curve_free(&curve);
+	}
+}
+
 static void
 turbidity_is_of_aerosol(void **state)
 {
@@ -210,6 +237,9 @@ what_is_no_day_is_refused(void **state)
 	assert_contains(error.message, "below the horizon");
 	sun.zenith_deg = NAN;
 	assert_int_equal(spec_dome_make(&sun, &atmosphere, &dome, &error), SPEC_ERANGE);
+	sun.zenith_deg = -1;
+	assert_int_equal(spec_dome_make(&sun, &atmosphere, &dome, &error), SPEC_ERANGE);
+	assert_contains(error.message, "zenith angle in degrees is -1, outside 0..90");
 	sun.zenith_deg = 89.999;
 	expect_ok(spec_dome_make(&sun, &atmosphere, &dome, &error));
 	spec_dome_free(&dome);
@@ -546,6 +576,17 @@ the_dome_ends_at_the_horizon(void **state)
 		near(near_sky[i], sky[i] / (.983 * .983), 1e-12, "in January");
 	near(dome.radius_rad, 4.65047e-3 / .983, 1e-7, "the disc in January");
 	spec_dome_free(&dome);
+	sun.zenith_deg = 89.9; /* the horizon cuts the disc */
+	expect_ok(spec_dome_make(&sun, &atmosphere, &dome, &error));
+	for (int i = -1; i <= 1; i += 2) {
+		double height = i * .1 * RADIANS;
+
+		up[0] = cos(height) * sin(10 * RADIANS);
+		up[1] = cos(height) * cos(10 * RADIANS);
+		up[2] = sin(height);
+		assert_int_equal(spec_dome_disc(&dome, up, sky), i > 0);
+	}
+	spec_dome_free(&dome);
 }
 
 int
@@ -555,6 +596,7 @@ main(void)
 		cmocka_unit_test(spctral2_is_that_of_its_authors),
 		cmocka_unit_test(spctral2_is_near_the_reference_spectra),
 		cmocka_unit_test(planes_get_what_faces_them),
+		cmocka_unit_test(half_of_what_molecules_scatter_comes_down),
 		cmocka_unit_test(turbidity_is_of_aerosol),
 		cmocka_unit_test(what_is_no_day_is_refused),
 		cmocka_unit_test(the_dome_is_that_of_its_authors),

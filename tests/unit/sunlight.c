@@ -89,6 +89,7 @@ options_are_read(void **state)
 	near(sunlight.plane.azimuth_deg, 180, 0, "faces south");
 	sunlight = parse("sun@" NOON ",facing=270");
 	near(sunlight.plane.tilt_deg, 90, 0, "a wall");
+	assert_true(sunlight.has_plane);
 }
 
 static void
@@ -169,6 +170,42 @@ there_is_no_light_in_the_night(void **state)
 			assert_contains(error.message, cases[i].message);
 		spec_curve_free(&curve);
 	}
+}
+
+/* Saemundsson: 29' at the horizon at 1010 hPa and 10 C, as the pressure. */
+static void
+thin_air_lifts_the_sun_less(void **state)
+{
+	static const char name[] = "sun@" LEUVEN "2005-05-17T21:20+02:00,pressure=";
+	double zenith_deg[3];
+
+	(void)state;
+	for (int i = 0; i < 3; i++) {
+		static const char *const pressures[] = {"10", "510", "1010"};
+		char whole[128];
+		struct spec_sunlight sunlight;
+		struct spec_clearsky_sun sun;
+
+		snprintf(whole, sizeof whole, "%s%s", name, pressures[i]);
+		sunlight = parse(whole);
+		expect_ok(spec_sunlight_sun(&sunlight, &sun, &error));
+		zenith_deg[i] = sun.zenith_deg;
+	}
+	assert_true(zenith_deg[0] - zenith_deg[2] > 20 / 60.);
+	assert_true(zenith_deg[0] - zenith_deg[2] < 30 / 60.);
+	near((zenith_deg[0] - zenith_deg[1]) / (zenith_deg[0] - zenith_deg[2]), .5, 1e-6,
+		"half the pressure");
+}
+
+static void
+titles_say_where_and_when(void **state)
+{
+	struct spec_curve curve = make("daylight@33.45S 70.67W,2005-12-17T12:00-03:00");
+
+	(void)state;
+	assert_contains(
+		curve.title, "at 33.45 S 70.67 W, 2005-12-17T12:00:00-03:00, the sun 66.1");
+	spec_curve_free(&curve);
 }
 
 static void
@@ -324,6 +361,8 @@ main(void)
 		cmocka_unit_test(options_are_read),
 		cmocka_unit_test(faults_are_shown),
 		cmocka_unit_test(there_is_no_light_in_the_night),
+		cmocka_unit_test(thin_air_lifts_the_sun_less),
+		cmocka_unit_test(titles_say_where_and_when),
 		cmocka_unit_test(parts_are_those_of_the_clear_sky),
 		cmocka_unit_test(clear_days_are_as_bright_as_measured),
 		cmocka_unit_test(a_day_has_its_brightness_and_colours),
