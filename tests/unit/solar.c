@@ -78,6 +78,26 @@ sun_is_where_meeus_has_it(void **state)
 		1.1 * ARCSECOND * 4, "equation of time");
 }
 
+/*
+ * The Astronomical Almanac for 2024: equinoxes to the minute, in which the declination changes
+ * by 1", half of it for rounding and 1.2" for the sun's own latitude; perihelion and aphelion.
+ */
+static void
+sun_is_where_the_almanac_has_it(void **state)
+{
+	struct spec_place place = {0, 0, 0};
+
+	(void)state;
+	near(solar_of(&place, "2024-03-20T03:06Z", NULL).declination_deg, 0,
+		1.7 * ARCSECOND, "spring");
+	near(solar_of(&place, "2024-09-22T12:44Z", NULL).declination_deg, 0,
+		1.7 * ARCSECOND, "autumn");
+	near(solar_of(&place, "2024-01-03T00:39Z", NULL).distance_au, .983307, 1e-6,
+		"perihelion");
+	near(solar_of(&place, "2024-07-05T05:06Z", NULL).distance_au, 1.016725, 1e-6,
+		"aphelion");
+}
+
 static void
 what_follows_from_the_sun_is_consistent(void **state)
 {
@@ -296,6 +316,7 @@ main(void)
 	const struct CMUnitTest tests[] = {
 		cmocka_unit_test(sun_is_where_the_paper_has_it),
 		cmocka_unit_test(sun_is_where_meeus_has_it),
+		cmocka_unit_test(sun_is_where_the_almanac_has_it),
 		cmocka_unit_test(what_follows_from_the_sun_is_consistent),
 		cmocka_unit_test(air_is_the_standard),
 		cmocka_unit_test(light_is_bent_and_dimmed),
