@@ -64,7 +64,7 @@ void spec_dome_free(struct spec_dome *dome);
 
 /*
  * The sky's radiance in a direction without the sun's disc, at the 11 bands [W m-2 sr-1
- * nm-1]: 0 below the horizon, else 0 or more. Costs some 0.2 us.
+ * nm-1]: 0 below the horizon, else 0 or more. Costs some 0.1 us.
  */
 void spec_dome_sky(const struct spec_dome *dome, const double direction[3],
 	double radiance[static SPEC_DOME_BANDS]);
