@@ -39,10 +39,13 @@ static const struct cli_option options[] = {
 	{0, "patches", "FILE|CxR",
 		"the same of means over rectangles: lines NAME X0 Y0 X1 Y1,\n"
 		"or a chart's columns and rows, such as 6x4"},
-	{0, "observer", "1931|1964|SPD", "who sees colours (default: 1931)"},
+	{0, "observer", "1931|1964|2015-2|2015-10|SPD", "who sees colours (default: 1931)"},
 	{0, "illuminant", "SPD",
 		"the light on reflectance, and white (default: D65; equal\n"
 		"energy for dominant wavelengths of light)"},
+	{0, "rule", "cie|grid|astm",
+		"integrate by 1 nm, over the spectrum's own wavelengths, or by\n"
+		"the weights of ASTM E308 for reflectance (default: cie)"},
 	{0, "plot", "FILE",
 		"draw the curves, or what --probe and --patches measure, and\n"
 		"their places in the chromaticity diagram: .png, .svg, .pdf"},
@@ -79,7 +82,8 @@ struct job {
 	struct spec_almanac_request almanac;
 	struct spec_regions regions;
 	struct spec_viewing viewing; /* once it is needed */
-	int seeing;
+	enum spec_rule rule;
+	int rule_told, seeing;
 	struct spec_settings settings;
 	struct cli_progress progress;
 	struct spec_text text;
@@ -101,6 +105,13 @@ take_probe(struct job *job, const char *text, struct spec_error *error)
 	if (status == SPEC_OK)
 		job->probes++;
 	return status;
+}
+
+static enum spec_status
+take_rule(struct job *job, const char *value, struct spec_error *error)
+{
+	job->rule_told = 1;
+	return spec_rule_find(value, &job->rule, error);
 }
 
 static enum spec_status
@@ -130,6 +141,8 @@ take_option(struct job *job, const char *name, const char *value, struct spec_er
 		job->observer = value;
 	else if (strcmp(name, "illuminant") == 0)
 		job->illuminant = value;
+	else if (strcmp(name, "rule") == 0)
+		return take_rule(job, value, error);
 	else
 		return spec_settings_take(&job->settings, name, value, &known, error);
 	return SPEC_OK;
@@ -163,6 +176,8 @@ see(struct job *job, struct spec_error *error)
 	if (!job->seeing)
 		status = spec_viewing_load(
 			job->observer, job->illuminant, &job->viewing, error);
+	job->viewing.rule = job->rule;
+	job->viewing.rule_told = job->rule_told;
 	job->seeing = status == SPEC_OK;
 	return status;
 }
@@ -234,66 +249,86 @@ plot_column(struct job *job, const char *name, const struct spec_curve *curve,
 	return status;
 }
 
-/* The columns' colours: a curve's own where it has one column. */
+/* The columns' colours, for the caller to free; null where there is an error. */
 static enum spec_status
-tell_colours(struct job *job, const char *name, const struct spec_curve *curve,
-	struct spec_error *error)
+find_colours(struct job *job, const char *name, const struct spec_curve *curve,
+	struct spec_appearance **result, struct spec_error *error)
 {
-	int seen = is_seen(curve), several = curve->columns > 1;
-	enum spec_status status = SPEC_OK;
+	struct spec_appearance *appearance =
+		spec_memory_new(curve->columns, sizeof *appearance, "columns", error);
+	enum spec_status status = appearance ? SPEC_OK : SPEC_ENOMEM;
+
+	if (status == SPEC_OK && is_seen(curve))
+		status = see(job, error);
+	for (size_t i = 0; i < curve->columns && status == SPEC_OK; i++) {
+		spec_appearance_clear(&appearance[i]);
+		if (is_seen(curve))
+			status = spec_appearance_of_curve(
+				&job->viewing, curve, i, &appearance[i], error);
+		if (status == SPEC_OK && job->plotted)
+			status = plot_column(job, name, curve, i, &appearance[i], error);
+	}
+	if (status != SPEC_OK) {
+		free(appearance);
+		appearance = NULL;
+	}
+	*result = appearance;
+	return status;
+}
+
+/* A curve's own where it has one column. */
+static void
+tell_colours(struct job *job, const struct spec_curve *curve,
+	const struct spec_appearance *appearance)
+{
+	int several = curve->columns > 1;
 
 	if (job->json && several)
 		spec_json_open(&job->writer, "colours", '[', SPEC_JSON_LINES);
-	for (size_t i = 0; i < curve->columns && status == SPEC_OK; i++) {
-		struct spec_appearance appearance;
-
-		spec_appearance_clear(&appearance);
-		if (seen)
-			status = spec_appearance_of_curve(
-				&job->viewing, curve, i, &appearance, error);
-		if (status == SPEC_OK && job->plotted)
-			status = plot_column(job, name, curve, i, &appearance, error);
+	for (size_t i = 0; i < curve->columns; i++) {
 		if (!job->json) {
-			if (seen && several)
+			if (is_seen(curve) && several)
 				fprintf(job->text.stream, "  %-13s %s\n", "colour of",
 					curve->column[i]);
-			spec_appearance_print(job->text.stream, "  ", &appearance);
+			spec_appearance_print(job->text.stream, "  ", &appearance[i]);
 			continue;
 		}
 		if (several)
 			spec_json_open(&job->writer, NULL, '{', SPEC_JSON_INLINE);
-		spec_appearance_json(&job->writer, &appearance);
+		spec_appearance_json(&job->writer, &appearance[i]);
 		if (several)
 			spec_json_close(&job->writer);
 	}
 	if (job->json && several)
 		spec_json_close(&job->writer);
-	return status;
 }
 
 static enum spec_status
 tell_curve(struct job *job, const char *path, struct spec_error *error)
 {
 	struct spec_curve curve;
+	struct spec_appearance *appearance = NULL;
 	int standard = strcmp(path, "-") == 0;
 	const char *name = standard ? "<stdin>" : path;
 	enum spec_status status = standard ? spec_spd_read(stdin, name, &curve, error)
 					   : spec_lookup_curve(path, &curve, error);
 
-	if (status == SPEC_OK && is_seen(&curve))
-		status = see(job, error);
-	if (status != SPEC_OK) {
-		spec_curve_free(&curve);
-		return status;
+	if (status == SPEC_OK) {
+		status = find_colours(job, name, &curve, &appearance, error);
+		if (status != SPEC_OK && status != SPEC_ENOMEM)
+			spec_error_prefix(error, "%s", name);
 	}
-	separate(job);
-	if (job->json)
-		spec_summary_json_open(&job->writer, name, &curve);
-	else
-		spec_summary_print(job->text.stream, name, &curve);
-	status = tell_colours(job, name, &curve, error);
-	if (job->json)
-		spec_json_close(&job->writer);
+	if (status == SPEC_OK) {
+		separate(job);
+		if (job->json)
+			spec_summary_json_open(&job->writer, name, &curve);
+		else
+			spec_summary_print(job->text.stream, name, &curve);
+		tell_colours(job, &curve, appearance);
+		if (job->json)
+			spec_json_close(&job->writer);
+	}
+	free(appearance);
 	spec_curve_free(&curve);
 	return status;
 }

@@ -1,6 +1,7 @@
 #include "colour/appearance.h"
 
 #include <math.h>
+#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -11,13 +12,10 @@
 #include "colour/temperature.h"
 #include "spectrum/lookup.h"
 
-/* CIE 15:2018; the SI's definition of the candela, 2019. */
-#define LUMEN_PER_WATT 683.0
-
 /* A spectrum that leaves out more of Y than this says so. */
 #define MUCH .01
 
-/* 683 lm/W times the integral of ybar: the luminance of a radiance of 1 per nm. */
+/* The efficacy times the integral of ybar: the luminance of a radiance of 1 per nm. */
 static double
 unit_luminance(const struct spec_curve *observer)
 {
@@ -26,7 +24,7 @@ unit_luminance(const struct spec_curve *observer)
 
 	for (size_t i = 0; i < n; i++)
 		sum += observer->value[n + i];
-	return LUMEN_PER_WATT * sum *
+	return spec_rule_efficacy(observer) * sum *
 	       (observer->wavelength_nm[n - 1] - observer->wavelength_nm[0]) /
 	       (double)(n - 1);
 }
@@ -42,7 +40,8 @@ find_whites(struct spec_viewing *viewing, int given, struct spec_error *error)
 		status = spec_observer_white(&viewing->observer, NULL, neutral, error);
 	if (status != SPEC_OK)
 		return status;
-	for (int i = 0; i < 3; i++) {
+	viewing->tristimulus = spec_observer_is_xyz(&viewing->observer);
+	for (int i = 0; i < 3 && viewing->tristimulus; i++) {
 		if (!(viewing->white_xyz[i] > 0))
 			return spec_error_set(error, SPEC_ERANGE,
 				"the illuminant's X, Y and Z are not all positive");
@@ -60,11 +59,10 @@ spec_viewing_load(const char *observer, const char *illuminant,
 	enum spec_status status;
 
 	*viewing = (struct spec_viewing){0};
-	status = spec_lookup_curve(spec_observer_spectrum(observer ? observer : "1931"),
-		&viewing->observer, error);
+	status =
+		spec_observer_load(observer ? observer : "1931", &viewing->observer, error);
 	if (status == SPEC_OK)
-		status = spec_lookup_curve(
-			spec_observer_spectrum("1931"), &viewing->standard, error);
+		status = spec_observer_load("1931", &viewing->standard, error);
 	if (status == SPEC_OK)
 		status = spec_lookup_light(illuminant ? illuminant : "illuminants/D65",
 			&viewing->illuminant, error);
@@ -109,8 +107,10 @@ spec_appearance_clear(struct spec_appearance *appearance)
 {
 	double *value = (double *)appearance;
 
-	for (size_t i = 0; i < sizeof *appearance / sizeof *value; i++)
+	for (size_t i = 0; i < offsetof(struct spec_appearance, viewing) / sizeof *value;
+		i++)
 		value[i] = NAN;
+	appearance->viewing = NULL;
 }
 
 static int
@@ -124,7 +124,8 @@ static double
 scale_of(const struct spec_viewing *viewing, enum spec_seen seen, double y, double *white)
 {
 	*white = seen == SPEC_SEEN_IRRADIANCE ? y : 1;
-	if (seen == SPEC_SEEN_RADIANCE || seen == SPEC_SEEN_IRRADIANCE)
+	if ((seen == SPEC_SEEN_RADIANCE || seen == SPEC_SEEN_IRRADIANCE) &&
+		isfinite(viewing->observer_luminance))
 		return viewing->observer_luminance;
 	if (seen != SPEC_SEEN_RELATIVE)
 		return 100;
@@ -132,29 +133,11 @@ scale_of(const struct spec_viewing *viewing, enum spec_seen seen, double y, doub
 	return 100 / y;
 }
 
-enum spec_status
-spec_appearance_find(const struct spec_viewing *viewing, enum spec_seen seen,
-	const double xyz[3], const double standard[3], struct spec_appearance *appearance,
-	struct spec_error *error)
+/* What the standard observer tells: luminance and temperature. */
+static void
+find_standard(const struct spec_viewing *viewing, enum spec_seen seen,
+	const double standard[3], struct spec_appearance *appearance)
 {
-	double white[3], neutral[2], scale, y, sum = xyz[0] + 15 * xyz[1] + 3 * xyz[2];
-
-	spec_appearance_clear(appearance);
-	if (seen == SPEC_SEEN_NOTHING || !is_finite(xyz) || !is_finite(standard) ||
-		((seen == SPEC_SEEN_RELATIVE || seen == SPEC_SEEN_IRRADIANCE) &&
-			!(xyz[1] > 0)))
-		return SPEC_OK;
-	scale = scale_of(viewing, seen, xyz[1], &y);
-	for (int i = 0; i < 3; i++) {
-		appearance->xyz[i] = scale * xyz[i];
-		white[i] = y * viewing->white_xyz[i];
-	}
-	spec_lab_from_xyz(xyz, white, appearance->lab);
-	spec_dominant_xy(xyz, appearance->xy);
-	if (sum > 0) {
-		appearance->uv[0] = 4 * xyz[0] / sum;
-		appearance->uv[1] = 9 * xyz[1] / sum;
-	}
 	if (seen == SPEC_SEEN_RADIANCE)
 		appearance->luminance = viewing->luminance * standard[1];
 	if (seen == SPEC_SEEN_IRRADIANCE)
@@ -162,16 +145,62 @@ spec_appearance_find(const struct spec_viewing *viewing, enum spec_seen seen,
 	if (seen != SPEC_SEEN_REFLECTED)
 		spec_temperature_find(
 			&viewing->standard, standard, &appearance->cct_k, &appearance->duv);
+}
+
+/* Coordinates of X, Y, Z; y: of white, on their scale. */
+static enum spec_status
+find_colour(const struct spec_viewing *viewing, enum spec_seen seen, const double xyz[3],
+	double y, const double white_xyz[3], struct spec_appearance *appearance,
+	struct spec_error *error)
+{
+	double white[3], neutral[2], sum = xyz[0] + 15 * xyz[1] + 3 * xyz[2];
+
+	for (int i = 0; i < 3; i++)
+		white[i] = y * white_xyz[i];
+	spec_lab_from_xyz(xyz, white, appearance->lab);
+	if (!is_finite(appearance->lab))
+		appearance->lab[0] = appearance->lab[1] = appearance->lab[2] = NAN;
+	spec_dominant_xy(xyz, appearance->xy);
+	if (sum > 0) {
+		appearance->uv[0] = 4 * xyz[0] / sum;
+		appearance->uv[1] = 9 * xyz[1] / sum;
+	}
 	memcpy(neutral, viewing->neutral_xy, sizeof neutral);
 	if (seen == SPEC_SEEN_REFLECTED)
-		spec_dominant_xy(viewing->white_xyz, neutral);
+		spec_dominant_xy(white_xyz, neutral);
 	return spec_dominant_find(&viewing->observer, appearance->xy, neutral,
 		&appearance->dominant_nm, &appearance->purity, error);
 }
 
+enum spec_status
+spec_appearance_find(const struct spec_viewing *viewing, enum spec_seen seen,
+	const double xyz[3], const double standard[3], const double white[3],
+	struct spec_appearance *appearance, struct spec_error *error)
+{
+	double scale, y;
+
+	spec_appearance_clear(appearance);
+	if (seen == SPEC_SEEN_NOTHING || !is_finite(xyz) || !is_finite(standard) ||
+		((seen == SPEC_SEEN_RELATIVE || seen == SPEC_SEEN_IRRADIANCE) &&
+			!(xyz[1] > 0)))
+		return SPEC_OK;
+	appearance->viewing = viewing;
+	find_standard(viewing, seen, standard, appearance);
+	scale = scale_of(viewing, seen, xyz[1], &y);
+	for (int i = 0; i < 3; i++)
+		(viewing->tristimulus ? appearance->xyz : appearance->signal)[i] =
+			scale * xyz[i];
+	if (!viewing->tristimulus)
+		return SPEC_OK;
+	if (!white || seen != SPEC_SEEN_REFLECTED)
+		white = viewing->white_xyz;
+	return find_colour(viewing, seen, xyz, y, white, appearance, error);
+}
+
 static enum spec_status
-sum_curve(const struct spec_curve *observer, const struct spec_curve *illuminant,
-	const struct spec_curve *curve, const double *value, double xyz[3], double *outside,
+sum_curve(enum spec_rule rule, const struct spec_curve *observer,
+	const struct spec_curve *illuminant, const struct spec_curve *curve,
+	const double *value, double xyz[3], struct spec_rule_sums *sums,
 	struct spec_error *error)
 {
 	struct spec_bands bands = {.count = curve->count,
@@ -182,8 +211,8 @@ sum_curve(const struct spec_curve *observer, const struct spec_curve *illuminant
 	enum spec_status status = SPEC_ENOMEM;
 
 	if (weight)
-		status = spec_observer_weights(
-			observer, illuminant, &bands, weight, outside, error);
+		status = spec_rule_weights(
+			rule, observer, illuminant, &bands, weight, sums, error);
 	for (size_t c = 0; c < 3; c++) {
 		xyz[c] = 0;
 		for (size_t i = 0; i < curve->count && status == SPEC_OK; i++)
@@ -201,21 +230,23 @@ spec_appearance_of_curve(const struct spec_viewing *viewing, const struct spec_c
 	const struct spec_curve *illuminant =
 		seen == SPEC_SEEN_REFLECTED ? &viewing->illuminant : NULL;
 	const double *value = curve->value + column * curve->count;
-	double xyz[3], standard[3], outside, ignored;
+	double xyz[3], standard[3];
+	struct spec_rule_sums sums, ignored;
 	enum spec_status status;
 
 	spec_appearance_clear(appearance);
 	if (seen == SPEC_SEEN_NOTHING)
 		return SPEC_OK;
-	status = sum_curve(
-		&viewing->observer, illuminant, curve, value, xyz, &outside, error);
+	status = sum_curve(viewing->rule, &viewing->observer, illuminant, curve, value, xyz,
+		&sums, error);
 	if (status == SPEC_OK)
-		status = sum_curve(&viewing->standard, illuminant, curve, value, standard,
-			&ignored, error);
+		status = sum_curve(viewing->rule, &viewing->standard, illuminant, curve,
+			value, standard, &ignored, error);
 	if (status != SPEC_OK)
 		return status == SPEC_ERANGE ? SPEC_OK : status;
-	status = spec_appearance_find(viewing, seen, xyz, standard, appearance, error);
-	appearance->outside = outside;
+	status = spec_appearance_find(
+		viewing, seen, xyz, standard, sums.white, appearance, error);
+	appearance->outside = sums.outside;
 	return status;
 }
 
@@ -228,9 +259,22 @@ put_numbers(struct spec_json *json, const char *key, const double *value, size_t
 		spec_json_null(json, key);
 }
 
+/* A curve of one column is an observer of three that are alike. */
+static size_t
+count_signals(const struct spec_curve *observer)
+{
+	return strcmp(observer->column[0], observer->column[1]) == 0 ? 1 : 3;
+}
+
 void
 spec_appearance_json(struct spec_json *json, const struct spec_appearance *appearance)
 {
+	const struct spec_viewing *viewing = appearance->viewing;
+
+	if (viewing)
+		spec_json_text(json, "rule", spec_rule_name(viewing->rule));
+	else
+		spec_json_null(json, "rule");
 	put_numbers(json, "XYZ", appearance->xyz, 3);
 	put_numbers(json, "xy", appearance->xy, 2);
 	put_numbers(json, "uv", appearance->uv, 2);
@@ -242,6 +286,11 @@ spec_appearance_json(struct spec_json *json, const struct spec_appearance *appea
 	spec_json_number(json, "luminance", appearance->luminance);
 	spec_json_number(json, "illuminance", appearance->illuminance);
 	spec_json_number(json, "outside", appearance->outside);
+	if (viewing && isfinite(appearance->signal[0]))
+		spec_json_numbers(json, "signals", appearance->signal,
+			count_signals(&viewing->observer));
+	else
+		spec_json_null(json, "signals");
 }
 
 /* What rounds to 0 in so many decimals is 0, without a sign. */
@@ -251,12 +300,31 @@ rounded(double value, double half)
 	return fabs(value) < half ? 0 : value;
 }
 
+static void
+print_signals(FILE *stream, const char *lead, const struct spec_appearance *appearance)
+{
+	const struct spec_viewing *viewing = appearance->viewing;
+	size_t count = count_signals(&viewing->observer);
+
+	fprintf(stream, "%s%-13s", lead, "signals");
+	for (size_t i = 0; i < count; i++)
+		fprintf(stream, "%s %s %.6g", i > 0 ? "," : "", viewing->observer.column[i],
+			appearance->signal[i]);
+	fputc('\n', stream);
+}
+
 void
 spec_appearance_print(
 	FILE *stream, const char *lead, const struct spec_appearance *appearance)
 {
 	const struct spec_appearance *a = appearance;
 
+	if (a->viewing && a->viewing->rule_told)
+		fprintf(stream, "%s%-13s %s, %s\n", lead, "rule",
+			spec_rule_name(a->viewing->rule),
+			spec_rule_title(a->viewing->rule));
+	if (a->viewing && isfinite(a->signal[0]))
+		print_signals(stream, lead, a);
 	if (isfinite(a->xyz[0]))
 		fprintf(stream, "%s%-13s %.6g %.6g %.6g\n", lead, "XYZ", a->xyz[0],
 			a->xyz[1], a->xyz[2]);
@@ -278,7 +346,7 @@ spec_appearance_print(
 		fprintf(stream, "%s%-13s %.6g cd/m^2\n", lead, "luminance", a->luminance);
 	if (isfinite(a->illuminance))
 		fprintf(stream, "%s%-13s %.6g lx\n", lead, "illuminance", a->illuminance);
-	if (a->outside > MUCH && isfinite(a->xyz[0]))
+	if (a->outside > MUCH && a->viewing)
 		fprintf(stream, "%s%-13s %.1f %% of Y, not counted\n", lead, "outside",
 			100 * a->outside);
 }

@@ -17,7 +17,7 @@
 static const struct {
 	const char *name, *title;
 } rules[] = {{"cie", "sums by the observer's steps (CIE 15:2018)"},
-	{"grid", "the trapezoid over the image's own wavelengths"},
+	{"grid", "the trapezoid over the spectrum's own wavelengths"},
 	{"astm", "the weights of ASTM E308-15, made by ASTM E2022-11"}};
 
 enum spec_status

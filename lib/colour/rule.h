@@ -11,7 +11,7 @@
 
 enum spec_rule {
 	SPEC_RULE_CIE, /* sums by 1 nm, or the observer's steps: observer.h (CIE 15:2018) */
-	SPEC_RULE_GRID, /* the trapezoid over the image's own wavelengths */
+	SPEC_RULE_GRID, /* the trapezoid over the spectrum's own wavelengths */
 	SPEC_RULE_ASTM /* weights for reflectance by 10 or 20 nm: abridged.h (ASTM E308-15) */
 };
 
@@ -21,7 +21,7 @@ enum spec_status spec_rule_find(
 
 const char *spec_rule_name(enum spec_rule rule);
 
-/* What a rule is, in words for a reader, such as "the trapezoid over the image's own wavelengths". */
+/* What a rule is, in words for a reader, such as "the trapezoid over the spectrum's own wavelengths". */
 const char *spec_rule_title(enum spec_rule rule);
 
 /* What the weights of an image are besides themselves. */

@@ -280,6 +280,11 @@ spec_plot_save(const struct spec_plot *plot, const char *path,
 
 	if (plot->count == 0)
 		return spec_error_set(error, SPEC_EUSAGE, "there is no spectrum to plot");
+	if (!viewing->tristimulus)
+		return spec_error_set(error, SPEC_EUSAGE,
+			"observer '%.200s' has no X, Y and Z to draw a chromaticity diagram "
+			"of",
+			viewing->observer.title);
 	if (!plot->quantity) {
 		for (size_t i = 0; i < plot->count; i++)
 			scale_series(&plot->series[i]);

@@ -38,8 +38,8 @@ enum spec_status spec_plot_add_probes(struct spec_plot *plot,
 /*
  * Draws it all to a file that is whole or not there. The locus and the black bodies are
  * those of the viewing's observer; sRGB's triangle is drawn for CIE 1931 alone. Errors:
- * SPEC_EUSAGE, there is nothing to plot; SPEC_EUNSUPPORTED, the plugin is not there; those
- * of spec_output_save.
+ * SPEC_EUSAGE, there is nothing to plot, or the observer sees no X, Y and Z;
+ * SPEC_EUNSUPPORTED, the plugin is not there; those of spec_output_save.
  */
 enum spec_status spec_plot_save(const struct spec_plot *plot, const char *path,
 	const struct spec_viewing *viewing, struct spec_error *error);

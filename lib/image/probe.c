@@ -140,7 +140,7 @@ spec_probe_free(struct spec_probe *probe, size_t probes)
 /* XYZ by one observer: the sums that are spec2rgb's, to a space whose RGB are XYZ. */
 static enum spec_status
 plan_observer(struct spec_rgb *plan, const struct spec_image *image,
-	const struct spec_curve *observer, const struct spec_curve *illuminant,
+	const struct spec_curve *observer, const struct spec_viewing *viewing,
 	struct spec_error *error)
 {
 	static const struct spec_space xyz = {.name = "xyz",
@@ -150,9 +150,10 @@ plan_observer(struct spec_rgb *plan, const struct spec_image *image,
 		.blue_xy = {0, 0},
 		.white_xy = {1. / 3, 1. / 3}};
 	struct spec_rgb_setup setup = {.observer = observer,
-		.illuminant = illuminant,
+		.illuminant = &viewing->illuminant,
 		.adaptation = SPEC_ADAPTATION_NONE,
-		.space = &xyz};
+		.space = &xyz,
+		.rule = viewing->rule};
 
 	return spec_rgb_plan(plan, image, &setup, error);
 }
@@ -196,8 +197,8 @@ see_all(struct spec_probe *probe, size_t probes, const struct spec_rgb *observed
 
 		sum_terms(observed, probe[i].value, xyz);
 		sum_terms(standard, probe[i].value, standard_xyz);
-		status = spec_appearance_find(
-			viewing, seen, xyz, standard_xyz, &probe[i].seen, error);
+		status = spec_appearance_find(viewing, seen, xyz, standard_xyz,
+			observed->white, &probe[i].seen, error);
 		if (status != SPEC_OK)
 			return status;
 		probe[i].seen.outside = observed->outside;
@@ -221,19 +222,22 @@ spec_probe_see(struct spec_probe *probe, size_t probes, const struct spec_reader
 		return SPEC_OK;
 	status = find_seen(image, &seen, error);
 	if (status == SPEC_OK) {
-		status = plan_observer(
-			&observed, image, &viewing->observer, &viewing->illuminant, &why);
+		status = plan_observer(&observed, image, &viewing->observer, viewing, &why);
 		if (status == SPEC_OK)
-			status = plan_observer(&standard, image, &viewing->standard,
-				&viewing->illuminant, &why);
+			status = plan_observer(
+				&standard, image, &viewing->standard, viewing, &why);
 		if (status == SPEC_OK)
 			status = see_all(
 				probe, probes, &observed, &standard, viewing, seen, &why);
 		/* Bands that nobody sees have no appearance, and that is no fault. */
-		if (status == SPEC_ENOMEM && error)
-			*error = why;
-		else
+		if (status != SPEC_ENOMEM &&
+			(viewing->rule == SPEC_RULE_CIE || status == SPEC_ERANGE))
 			status = SPEC_OK;
+		else if (status != SPEC_OK && error) {
+			*error = why;
+			if (status != SPEC_ENOMEM)
+				spec_error_prefix(error, "%s", spec_reader_name(reader));
+		}
 	}
 	spec_rgb_free(&observed);
 	spec_rgb_free(&standard);

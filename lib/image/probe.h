@@ -35,7 +35,8 @@ void spec_probe_free(struct spec_probe *probe, size_t probes);
 /*
  * How the spectra look, of probes that are read: S0 as light, which is absolute where the
  * quantity is a radiance; T, and what is reradiated, under the viewing's illuminant. An image
- * without bands, or with none that the observer sees, has no appearance. Error: SPEC_ENOMEM.
+ * without bands, or with none that the observer sees, has no appearance. Errors: SPEC_ENOMEM;
+ * those of spec_rgb_plan where the viewing's rule is another than "cie".
  */
 enum spec_status spec_probe_see(struct spec_probe *probe, size_t probes,
 	const struct spec_reader *reader, const struct spec_viewing *viewing,

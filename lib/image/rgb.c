@@ -137,8 +137,11 @@ find_luminance(const struct spec_image *image, const struct spec_rgb_setup *setu
 	seen = illuminant ? spec_seen_of(illuminant->quantity, illuminant->unit)
 			  : spec_seen_of(quantity, "");
 	free(quantity);
-	if (seen == SPEC_SEEN_RADIANCE)
+	if (seen == SPEC_SEEN_RADIANCE || (illuminant && seen == SPEC_SEEN_IRRADIANCE))
 		*luminance = integral * spec_rule_efficacy(setup->observer);
+	/* A perfect diffuser sends as much in all directions: its irradiance over pi. */
+	if (seen == SPEC_SEEN_IRRADIANCE)
+		*luminance /= M_PI;
 	return SPEC_OK;
 }
 
@@ -159,8 +162,8 @@ find_scale(const struct spec_image *image, const struct spec_rgb_setup *setup,
 			setup->observer->title);
 	if (image->role == SPEC_ROLE_REFLECTIVE)
 		return spec_error_set(error, SPEC_EUNSUPPORTED,
-			"reflectance has a luminance only under an illuminant whose "
-			"quantity is a radiance, and '%.200s' tells ratios alone",
+			"reflectance has a luminance only under a radiance, or a power in "
+			"W m-2 nm-1, and the illuminant '%.200s' tells ratios alone",
 			setup->illuminant ? setup->illuminant->title : "equal energy");
 	return spec_error_set(error, SPEC_EUNSUPPORTED,
 		"has no luminance: its spec:quantity is no radiance");

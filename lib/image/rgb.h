@@ -46,7 +46,7 @@ struct spec_rgb {
 	/*
 	 * [cd m^-2] what that Y = 1 is before the exposure, by the efficacy of the observer
 	 * (rule.h): of radiance; of reflectance where the illuminant is one, that of the
-	 * perfect reflector. Else NaN.
+	 * perfect reflector, or an irradiance of the perfect diffuser. Else NaN.
 	 */
 	double luminance;
 };

@@ -1014,11 +1014,15 @@ close() {
 @test "--absolute: reflectance under a light of known radiance" {
   spectral half.exr --kind T --grid 360:830:5 --pattern constant:0.5
   fails_cleanly spec2rgb --absolute half.exr -o x.exr
-  [[ $stderr = *'half.exr: reflectance has a luminance only under an illuminant whose quantity is a radiance, and '*D65*' tells ratios alone' ]]
+  [[ $stderr = *'half.exr: reflectance has a luminance only under a radiance, or a power in W m-2 nm-1, and the illuminant '*D65*' tells ratios alone' ]]
   printf '%s\n' '# quantity: radiance' '# unit: W m^-2 sr^-1 nm^-1' '360 0.02' '830 0.02' >lamp.spd
   for rule in cie grid; do
     close 1e-5 "$(awk 'BEGIN { print 683 * 106.8569 * 0.01 }')" "$(xyz half.exr --absolute --rule $rule --illuminant lamp.spd | cut -d ' ' -f 2)"
   done
+  # Of an irradiance, 1/pi of the illuminance.
+  noon='daylight@50.88N 4.70E,2005-05-17T12:00Z'
+  lux=$(specinfo --json "$noon" | jq .illuminance)
+  close 1e-5 "$(awk -v lux="$lux" 'BEGIN { print 0.5 * lux / atan2(0, -1) }')" "$(xyz half.exr --absolute --illuminant "$noon" | cut -d ' ' -f 2)"
 }
 
 @test "-v tells the sums, also in OpenEXR with the luminance of white" {

@@ -538,6 +538,60 @@ about() {
     '$with.pixels[0].XYZ[1] > $without.pixels[0].XYZ[1] + 1' | grep -qx true
 }
 
+@test "--rule: the perfect reflector is white by every one, and the text tells it" {
+  spectral white.exr --kind T --grid 400:700:20 --pattern constant:1
+  for rule in grid astm; do
+    holds ".pixels[0] | .rule == \"$rule\" and (.XYZ[1] - 100 | fabs < 1e-9) and (.Lab | (.[0] - 100 | fabs < 1e-9) and (.[1:] | map(fabs) | max < 1e-9)) and .purity < 1e-9" \
+      specinfo --json --rule $rule -p 0,0 white.exr
+  done
+  # White of ASTM E308; by the sums of 1 nm what lies outside is missing.
+  about '.pixels[0].XYZ[2]' 108.883 .002 specinfo --json --rule astm -p 0,0 white.exr
+  holds '.pixels[0] | .rule == "cie" and .XYZ[1] < 99.97' specinfo --json -p 0,0 white.exr
+  specinfo --rule astm -p 0,0 white.exr | grep -qx '# x0y0 rule          astm, the weights of ASTM E308-15, made by ASTM E2022-11'
+  specinfo -p 0,0 white.exr | { run ! grep rule; }
+  specinfo --rule cie D65 | grep -q '^  rule          cie, sums by '
+  # Sums of the table by its 5 nm: CIE 15:2004, .31272.
+  about '.xy[0]' 0.31272 1e-5 specinfo --json --rule grid D65
+  specconvert -g 400:700:10 colorchecker/15-red -o red.spd
+  holds '.rule == "astm" and (.XYZ[1] - 11.826 | fabs < 1e-3)' specinfo --json --rule astm red.spd
+}
+
+@test "--rule that is refused: nothing of that file is told" {
+  spectral light.exr --grid 400:700:20
+  fails_cleanly specinfo --rule simpson D65
+  fails_cleanly specinfo --rule astm D65
+  [[ $stderr = *'D65: the weights of ASTM E308 are for reflectance and transmittance, not for light' ]]
+  fails_cleanly specinfo --json --rule astm colorchecker/15-red
+  [[ $stderr = *'colorchecker/15-red: ASTM E308 has weights for bands 10 or 20 nm apart, not for these' ]]
+  fails_cleanly specinfo --rule astm -p 0,0 light.exr
+  [[ $stderr = *'light.exr: the weights of ASTM E308 '*'not for light' ]]
+}
+
+@test "--observer: the CIE's of 2015, and those without X, Y and Z" {
+  # CIE 170-2:2015: the spectrum of equal energy is white to all.
+  for observer in 2015-2 2015-10; do
+    about '.xy[0]' 0.33333 5e-5 specinfo --json --observer $observer E
+  done
+  holds '.XYZ == null and .xy == null and .Lab == null and .dominant_nm == null and .purity == null and (.signals | length == 3) and
+    .signals[1] == 100 and .cct > 6500' specinfo --json --observer cie2006-lms-2 D65
+  specinfo --observer cie2006-lms-2 D65 | grep -qxE '  signals       l 116\.[0-9]+, m 100, s 64\.[0-9]+'
+  holds '.signals == null and .XYZ != null' specinfo --json D65
+  # A radiance of 1 per nm: 1700.06 lm/W times the sum of V', and of V 683.
+  specconvert -g 380:780:1 --patches 1x1 E --scale 0.01 -o light.exr
+  sum=$(awk '/^[0-9]/ { sum += $2 } END { printf "%.6f", sum * 1700.06 }' "$ROOT/spectra/cmf/v-scotopic.spd")
+  about '.pixels[0].signals[0]' "$sum" 2 specinfo --json --observer v-scotopic -p 0,0 light.exr
+  about '.pixels[0].luminance' 72983.3 2 specinfo --json --observer v-scotopic -p 0,0 light.exr
+  about '.pixels[0].XYZ[1]' "$(awk '/^[0-9]/ { sum += $3 } END { printf "%.6f", sum * 683.599 }' "$ROOT/spectra/cmf/cie1964.spd")" 3 \
+    specinfo --json --observer 1964 -p 0,0 light.exr
+  # The reflector has 100 in the second of three sensors, and in the only one.
+  printf '%s\n' '# quantity: reflectance' '360 1' '830 1' >white.spd
+  about '.signals[1]' 100 1e-9 specinfo --json --observer cie2006-lms-10 white.spd
+  holds '.signals | length == 1 and (.[0] - 100 | fabs < 1e-9)' specinfo --json --observer v-scotopic white.spd
+  fails_cleanly specinfo --observer cie2006-lms-2 --plot x.svg D65
+  [[ $stderr = *'has no X, Y and Z to draw a chromaticity diagram of' ]]
+  [ ! -e x.svg ]
+}
+
 # Plots
 
 # In the diagram, x = 0.31273 is 810.57 from the left, y = 0.32902 345.54 from the top; a point's
