@@ -141,6 +141,38 @@ faults_are_shown(void **state)
 	}
 }
 
+/* Any bytes are read, or refused with a message. */
+static void
+damaged_names_do_no_harm(void **state)
+{
+	static const char whole[] =
+		"daylight@50.88N 4.70E 10m,2005-05-17T13:37+02:00,turbidity=2,tilt=3,facing=9";
+	static const char bytes[] = "@,=. 0129NESWTZ:+-m\xff\n%";
+	uint32_t random = 1;
+	size_t refused = 0;
+
+	(void)state;
+	for (int i = 0; i < 4000; i++) {
+		char name[sizeof whole];
+		struct spec_sunlight sunlight;
+		enum spec_status status;
+
+		memcpy(name, whole, sizeof whole);
+		for (int j = 0; j < 1 + i % 3; j++) {
+			random = random * 1664525 + 1013904223;
+			name[(random >> 8) % (sizeof whole - 1)] =
+				bytes[(random >> 20) % sizeof bytes];
+		}
+		error = (struct spec_error){0};
+		status = spec_sunlight_parse(name, &sunlight, &error);
+		assert_true(status == SPEC_OK || status == SPEC_EUSAGE ||
+			    status == SPEC_ERANGE);
+		assert_true((status == SPEC_OK) == (error.message[0] == '\0'));
+		refused += status != SPEC_OK;
+	}
+	assert_in_range(refused, 2000, 3900);
+}
+
 /* Kiruna's sun does not set on 21 June and does not rise on 21 December. */
 static void
 there_is_no_light_in_the_night(void **state)
@@ -360,6 +392,7 @@ main(void)
 	const struct CMUnitTest tests[] = {
 		cmocka_unit_test(options_are_read),
 		cmocka_unit_test(faults_are_shown),
+		cmocka_unit_test(damaged_names_do_no_harm),
 		cmocka_unit_test(there_is_no_light_in_the_night),
 		cmocka_unit_test(thin_air_lifts_the_sun_less),
 		cmocka_unit_test(titles_say_where_and_when),
