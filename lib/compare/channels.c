@@ -6,6 +6,7 @@
 #include "base/memory.h"
 #include "compare/formula.h"
 #include "compare/planning.h"
+#include "image/variances.h"
 
 #define SAME_NM 1e-3 /* bispectral channels closer than this are the same */
 
@@ -169,6 +170,33 @@ add_layers(const struct spec_plan *plan)
 	return status;
 }
 
+/* The variances of all bands, which the output has where all images have. */
+static enum spec_status
+add_variances(const struct spec_plan *plan)
+{
+	const struct spec_image *image = &plan->arithmetic->image;
+	size_t at[SPEC_ARITHMETIC_MOST + 1];
+	struct spec_program_place place = {.channel = at, .wavelength_nm = NAN};
+	struct spec_expression expression = {0};
+	char *text = NULL;
+	enum spec_status status = spec_formula_variance(
+		plan->setup, plan->weight, plan->operands, &text, plan->error);
+
+	if (status == SPEC_OK && text)
+		status = spec_expression_parse(
+			text, plan->operands, &expression, plan->error);
+	for (size_t i = 0; i < image->bands && text && status == SPEC_OK; i++) {
+		for (size_t j = 0; j < plan->operands; j++)
+			at[j] = spec_variances_find(
+				plan->image[j], plan->image[j]->band_channel[i]);
+		status = add_program(plan, &expression, &place,
+			spec_variances_find(image, image->band_channel[i]));
+	}
+	spec_expression_free(&expression);
+	free(text);
+	return status;
+}
+
 /* A channel of the geometry that all images have, of which there is a mean. */
 static enum spec_status
 add_geometry(const struct spec_plan *plan, size_t to)
@@ -260,6 +288,8 @@ spec_plan_channels(struct spec_plan *plan)
 		status = add_alpha(plan);
 	if (status == SPEC_OK && plan->operation->layers)
 		status = add_layers(plan);
+	if (status == SPEC_OK && spec_variances_has_some(&plan->arithmetic->image))
+		status = add_variances(plan);
 	for (size_t i = 0; i < channels && plan->operation->mean && status == SPEC_OK; i++)
 		status = add_geometry(plan, i);
 	return status == SPEC_OK ? copy_rest(plan) : status;

@@ -134,6 +134,43 @@ spec_formula_write(const struct spec_arithmetic_setup *setup, const double *weig
 	return close_text(&written, text, error);
 }
 
+static void
+write_weighted_variances(FILE *to, const double *weight, size_t images)
+{
+	double sum = 0;
+
+	for (size_t i = 0; i < images; i++)
+		sum += weight ? weight[i] : 1;
+	for (size_t i = 0; i < images; i++) {
+		double share = (weight ? weight[i] : 1) / sum;
+
+		fprintf(to, "%s%.17g*image%zu", i > 0 ? "+" : "", share * share, i + 1);
+	}
+}
+
+enum spec_status
+spec_formula_variance(const struct spec_arithmetic_setup *setup, const double *weight,
+	size_t images, char **text, struct spec_error *error)
+{
+	int sums = setup->operation == SPEC_OPERATION_ADD ||
+		   setup->operation == SPEC_OPERATION_SUBTRACT;
+	struct spec_text written;
+	enum spec_status status;
+
+	*text = NULL;
+	if (!sums && setup->operation != SPEC_OPERATION_MEAN &&
+		setup->operation != SPEC_OPERATION_MERGE)
+		return SPEC_OK;
+	status = spec_text_open(&written, error);
+	if (status != SPEC_OK)
+		return status;
+	if (sums)
+		write_chain(written.stream, "+", images);
+	else
+		write_weighted_variances(written.stream, weight, images);
+	return close_text(&written, text, error);
+}
+
 /* --- geometry --- */
 
 enum geometry {

@@ -22,6 +22,15 @@
 enum spec_status spec_formula_write(const struct spec_arithmetic_setup *setup,
 	const double *weight, size_t images, char **text, struct spec_error *error);
 
+/*
+ * The same of the variance of that result, image1 and so on being those of the images: of sums
+ * and means of independent images; null for all else.
+ *   add, subtract   a + b + c ...
+ *   mean, merge     (wa^2 a + wb^2 b + wc^2 c ...) / (wa + wb + wc ...)^2
+ */
+enum spec_status spec_formula_variance(const struct spec_arithmetic_setup *setup,
+	const double *weight, size_t images, char **text, struct spec_error *error);
+
 /* The channel that is alpha. */
 const char *spec_formula_alpha(const struct spec_arithmetic_setup *setup);
 

@@ -11,7 +11,7 @@ struct spec_operation_traits {
 	int alike;  /* all are of one kind, quantity and the same components and bins */
 	int linear; /* so that it holds for Stokes components and bispectral channels, too */
 	int alpha;  /* A is worked on as the bands, which are premultiplied by it */
-	int layers; /* and so are light layers */
+	int layers; /* and so are light layers; it is a sum by weights */
 	int mean;   /* of all, so that it has a mean geometry */
 };
 

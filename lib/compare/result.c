@@ -5,6 +5,7 @@
 #include "base/memory.h"
 #include "compare/planning.h"
 #include "image/samples.h"
+#include "image/variances.h"
 
 /* The text of the operands' quantity where it is the same in all, else "ratio". */
 static enum spec_status
@@ -116,6 +117,20 @@ sample_of_bands(const struct spec_plan *plan)
 	return half || plan->setup->half ? SPEC_SAMPLE_HALF : SPEC_SAMPLE_FLOAT;
 }
 
+/* Variances of sums of images that all have them; those of the first alone mean nothing. */
+static enum spec_status
+set_variances(const struct spec_plan *plan)
+{
+	struct spec_image *image = &plan->arithmetic->image;
+	int known = plan->operation->layers && image->stokes == 1 && image->bispectral == 0;
+
+	for (size_t i = 0; i < plan->operands && known; i++)
+		known = spec_variances_are_whole(plan->image[i]);
+	return spec_variances_has_some(image)
+		       ? spec_variances_renew(image, known, plan->name[0], plan->error)
+		       : SPEC_OK;
+}
+
 static enum spec_status
 set_bands(const struct spec_plan *plan)
 {
@@ -138,9 +153,9 @@ set_bands(const struct spec_plan *plan)
 	}
 	if (status == SPEC_OK)
 		status = spec_image_set_bins(image, edges_nm, first->bands, plan->error);
-	return status == SPEC_OK
-		       ? spec_image_rename_bands(image, plan->name[0], plan->error)
-		       : status;
+	if (status == SPEC_OK)
+		status = spec_image_rename_bands(image, plan->name[0], plan->error);
+	return status == SPEC_OK ? set_variances(plan) : status;
 }
 
 static enum spec_status

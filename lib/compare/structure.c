@@ -7,6 +7,7 @@
 
 #include "base/memory.h"
 #include "compare/comparing.h"
+#include "image/variances.h"
 
 #define SAME_NM 1e-3 /* edges of bins closer than this are the same */
 
@@ -275,15 +276,6 @@ spec_comparing_structure(struct spec_comparing *comparison, struct spec_error *e
 	return status;
 }
 
-static size_t
-find_variance(const struct spec_image *image, size_t channel)
-{
-	char name[300];
-
-	snprintf(name, sizeof name, "variance.%s", image->channel[channel].name);
-	return spec_image_find_channel(image, name);
-}
-
 enum spec_status
 spec_comparing_variances(struct spec_comparing *comparison, struct spec_error *error)
 {
@@ -297,8 +289,8 @@ spec_comparing_variances(struct spec_comparing *comparison, struct spec_error *e
 	if (comparison->sums[0].first)
 		return SPEC_OK;
 	for (size_t i = 0; i < bands->count; i++) {
-		pairs->a[i] = find_variance(comparison->a, bands->a[i]);
-		pairs->b[i] = find_variance(comparison->b, bands->b[i]);
+		pairs->a[i] = spec_variances_find(comparison->a, bands->a[i]);
+		pairs->b[i] = spec_variances_find(comparison->b, bands->b[i]);
 		if (pairs->a[i] == comparison->a->channels ||
 			pairs->b[i] == comparison->b->channels ||
 			comparison->a->channel[pairs->a[i]].sample == SPEC_SAMPLE_UINT ||

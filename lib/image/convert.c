@@ -160,7 +160,9 @@ set_channels(struct spec_converting *converting, struct spec_error *error)
 	}
 	if (changes_values(converting))
 		spec_image_remove_preview(image);
-	return spec_image_rename_bands(image, converting->name, error);
+	status = spec_image_rename_bands(image, converting->name, error);
+	return status == SPEC_OK ? spec_converting_renew_variances(converting, error)
+				 : status;
 }
 
 /* text with the first "per nm" or "per band" in it made the other; newly allocated. */

@@ -39,6 +39,7 @@ struct spec_converting {
 	size_t lights;
 	char *quantity; /* the input's */
 	int per_band;   /* the input's values are */
+	int variances;  /* those of the output are made of those of the input */
 };
 
 /* Adds a line to the notes. */
@@ -62,6 +63,20 @@ enum spec_status spec_converting_check(
 /* Leaves out the bands in which there is too little light to tell the reflectance. */
 enum spec_status spec_converting_drop_dark(
 	struct spec_converting *converting, struct spec_error *error);
+
+/*
+ * Where the image has variances (variances.h) and its samples change: has those of the new
+ * bands in their place, or, if they cannot be known, none, with a note. SPEC_ENOMEM.
+ */
+enum spec_status spec_converting_renew_variances(
+	struct spec_converting *converting, struct spec_error *error);
+
+/*
+ * The input's channel that such a channel of the output is made of, and its band; channels:
+ * it is none of these.
+ */
+size_t spec_converting_find_variance(
+	const struct spec_converting *converting, size_t channel, size_t *band);
 
 /* Fills the convert's terms, offsets and steps. */
 enum spec_status spec_converting_terms(

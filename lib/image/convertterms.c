@@ -431,14 +431,34 @@ find_origin(const struct spec_image *input, const struct spec_channel *channel)
 	return found;
 }
 
-/* Foreign channels, and those off the diagonal. */
+/* A variance goes by the square of what its band is multiplied by. */
 static enum spec_status
-add_other_terms(struct spec_converting *converting, const struct spec_channel *channel,
+add_variance_term(struct spec_converting *converting, size_t origin, size_t band,
 	struct affine *chain, struct spec_error *error)
 {
+	enum spec_status status =
+		fold(converting, converting->made.wavelength_nm[band], 0, 1, chain, error);
+	double factor = chain[0].factor * converting->weight[converting->first[band]] /
+			converting->convert->downsample;
+
+	return status == SPEC_OK
+		       ? add_term(converting->convert, origin, factor * factor, error)
+		       : status;
+}
+
+/* Foreign channels, and those off the diagonal. */
+static enum spec_status
+add_other_terms(struct spec_converting *converting, size_t at, struct affine *chain,
+	struct spec_error *error)
+{
 	struct spec_convert *convert = converting->convert;
-	size_t origin = find_origin(convert->input, channel);
+	const struct spec_channel *channel = &convert->image.channel[at];
+	size_t band, origin = spec_converting_find_variance(converting, at, &band);
 	enum spec_status status = SPEC_OK;
+
+	if (origin < convert->input->channels)
+		return add_variance_term(converting, origin, band, chain, error);
+	origin = find_origin(convert->input, channel);
 
 	chain[0] = (struct affine){.factor = 1};
 	if (channel->role == SPEC_ROLE_BISPECTRAL)
@@ -536,8 +556,7 @@ spec_converting_terms(struct spec_converting *converting, struct spec_error *err
 	for (size_t i = 0; i < channels && status == SPEC_OK; i++) {
 		convert->first[i] = convert->terms;
 		status = place[i] == SPEC_LAYERS_NONE
-				 ? add_other_terms(converting, &convert->image.channel[i],
-					   chain, error)
+				 ? add_other_terms(converting, i, chain, error)
 				 : add_light_terms(converting, i,
 					   &converting->light[place[i] / bands],
 					   place[i] % bands, chain, error);

@@ -11,6 +11,7 @@
 #include "image/names.h"
 #include "image/samples.h"
 #include "image/save.h"
+#include "image/variances.h"
 #include "place/placed.h"
 #include "render/sums.h"
 #include "render/variance.h"
@@ -207,7 +208,7 @@ set_slots(struct spec_render *render, struct spec_error *error)
 	}
 	if (status == SPEC_OK && render->setup.variance)
 		status = set_band_slots(
-			render, SPEC_VARIANCE_PREFIX, variance_slot(render), error);
+			render, SPEC_VARIANCES_PREFIX, variance_slot(render), error);
 	render->slots = variance_slot(render) +
 			(render->setup.variance ? 2 * render->bands.count : 0);
 	return status;
@@ -273,7 +274,7 @@ make_header(struct spec_render *render, struct spec_error *error)
 	if (status == SPEC_OK)
 		status = add_bands(render, "", sample_of(render), error);
 	if (status == SPEC_OK && render->setup.variance)
-		status = add_bands(render, SPEC_VARIANCE_PREFIX, SPEC_SAMPLE_FLOAT, error);
+		status = add_bands(render, SPEC_VARIANCES_PREFIX, SPEC_SAMPLE_FLOAT, error);
 	if (status == SPEC_OK)
 		status = add_films(render, error);
 	if (status == SPEC_OK && has_surface(render))

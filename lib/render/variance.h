@@ -11,8 +11,7 @@
 
 #include <stddef.h>
 
-#define SPEC_VARIANCE_PREFIX "variance." /* of the channels; behind it the band's name */
-#define SPEC_VARIANCE_BATCHES 8          /* at most; fewer samples are each one */
+#define SPEC_VARIANCE_BATCHES 8 /* at most; fewer samples are each one */
 
 /* Whether a batch of a pixel's samples ends with the one of that number, from 0. */
 int spec_variance_ends(unsigned sample, unsigned samples);

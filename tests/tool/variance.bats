@@ -107,3 +107,84 @@ END
   fails_cleanly specrender --variance=1 a.pbrt -o b.exr
   no_leftovers . a.pbrt a.exr
 }
+
+# scaled A B X,Y FACTOR: every variance in that pixel of B is that of A times the factor, of which
+# some are not 0.
+scaled() {
+  pixel_holds "$1" "$2" "$3" '
+    for (name in to) if (name ~ /^variance/) {
+      if (!near(to[name], from[name] * '"$4"', 1e-5)) wrong(name ": " to[name] " of " from[name])
+      if (to[name] > 0) some = 1
+    }
+    if (!some) wrong("no variance")'
+}
+
+@test "specconvert: variances follow factors, crops and smaller pictures" {
+  ball a.pbrt .1
+  render --variance --spp 16 a.pbrt -o a.exr
+  specconvert --scale 3 a.exr -o scaled.exr
+  scaled a.exr scaled.exr 8,12 9
+  specconvert --multiply D65 a.exr -o lit.exr
+  pixel_holds a.exr lit.exr 8,12 '
+    for (name in to) if (name ~ /^variance/) {
+      band = substr(name, 10); factor = to[band] / from[band]
+      if (!near(to[name], from[name] * factor * factor, 1e-4)) wrong(name ": " to[name] " of " from[name])
+      count++
+    }
+    if (count != 4) wrong(count)'
+  # Light that is added has no noise.
+  specconvert --add D65 a.exr -o added.exr
+  scaled a.exr added.exr 8,12 1
+  specconvert --band 500 a.exr -o band.exr
+  has_channels band.exr S0.500,000000nm variance.S0.500,000000nm
+  scaled a.exr band.exr 8,12 1
+  specconvert --downsample 2 a.exr -o small.exr
+  for x in 8 9; do
+    for y in 12 13; do
+      "$TESTS/layers" --print $x,$y a.exr
+    done
+  done | awk '$1 ~ /^variance/ { sum[$1] += $2 / 16 } END { for (name in sum) print name, sum[name] }' >wanted
+  "$TESTS/layers" --print 4,6 small.exr | awk '
+    FNR == NR { wanted[$1] = $2; next }
+    $1 ~ /^variance/ { rows++; if ($2 <= 0 || ($2 / wanted[$1] - 1) ^ 2 > 1e-8) exit 1 } END { if (rows != 4) exit 1 }' wanted - ||
+    complain "$(cat wanted)" "$("$TESTS/layers" --print 4,6 small.exr)"
+}
+
+@test "specconvert: where bands are mixed or bent, variances go, with a note" {
+  lamp a.pbrt
+  render --variance a.pbrt -o a.exr
+  for change in '--grid 450:650:100' '--raise 2' '--clamp 0..1' '--bands-only'; do
+    # shellcheck disable=SC2086 # two words
+    specconvert $change a.exr -o b.exr 2>said
+    channels b.exr >names
+    run ! grep variance names
+    [ "$change" = --bands-only ] || grep -q 'without the variances' said || complain "$change: $(cat said)"
+  done
+}
+
+@test "speccomp: renders that are merged are known better, and other things not at all" {
+  ball a.pbrt .1
+  render --variance --spp 16 --seed 1 a.pbrt -o 1.exr
+  render --variance --spp 48 --seed 2 a.pbrt -o 2.exr
+  speccomp --merge 1.exr 2.exr -o merged.exr
+  # By their samples: 1/4 and 3/4 of the means.
+  for name in variance.S0.{4,5,6,7}00,000000nm; do
+    for file in 1 2 merged; do
+      "$TESTS/layers" --print 8,12 $file.exr | awk -v name=$name '$1 == name { print $2 }'
+    done | xargs | awk '{ wanted = $1 / 16 + $2 * 9 / 16; exit !($3 > 0 && ($3 / wanted - 1) ^ 2 < 1e-10) }' || complain "$name"
+  done
+  speccomp --op subtract 2.exr 2.exr -o zero.exr
+  scaled 2.exr zero.exr 8,12 2
+  speccomp --op mean 2.exr 2.exr -o mean.exr
+  scaled 2.exr mean.exr 8,12 .5
+  specconvert --scale 1 2.exr --bands-only -o bare.exr
+  for made in "--op max 1.exr 2.exr" "--op multiply 1.exr D65.exr" "--merge 1.exr bare.exr"; do
+    specconvert --reflectance-of D65 bare.exr -o D65.exr
+    # shellcheck disable=SC2086 # several words
+    speccomp $made -o b.exr
+    channels b.exr >names
+    run ! grep variance names
+  done
+  # What is known better tells smaller differences.
+  specdiff -q --same-within 3sigma 1.exr merged.exr
+}
