@@ -41,7 +41,7 @@ struct comparison {
 	struct candidate *candidate;
 	size_t candidates;
 	int bounded, wanted[SPEC_LEVEL_FORMULAS];
-	size_t width;
+	size_t width, pixels;
 };
 
 enum spec_status
@@ -217,8 +217,8 @@ kernel(void *state, struct spec_stream_worker *worker, int line, struct spec_err
 		sum_row(comparison, &candidate->rgb, worker, line, plane, xyz);
 		compare_row(comparison, &sums[i], full, lab, xyz, line);
 		if (comparison->bounded && !comparison->level->of_mean &&
-			(sums[i].mended || !(sums[i].of[comparison->level->formula].most <=
-						   comparison->level->bound)))
+			!(sums[i].of[comparison->level->formula].most <=
+				comparison->level->bound))
 			atomic_store(&candidate->out, 1);
 	}
 	return SPEC_OK;
@@ -254,6 +254,16 @@ deliver(void *state, const unsigned char *payload, int line, int count,
 	for (int row = 0; row < count; row++) {
 		for (size_t i = 0; i < comparison->candidates; i++)
 			add_sums(&comparison->candidate[i].sums, sums++);
+	}
+	if (!comparison->bounded || !comparison->level->of_mean)
+		return SPEC_OK;
+	for (size_t i = 0; i < comparison->candidates; i++) {
+		struct candidate *candidate = &comparison->candidate[i];
+
+		/* The mean can no longer be within the bound, whatever is still to come. */
+		if (candidate->sums.of[comparison->level->formula].sum >
+			comparison->level->bound * (double)comparison->pixels)
+			atomic_store(&candidate->out, 1);
 	}
 	return SPEC_OK;
 }
@@ -293,11 +303,9 @@ is_within(const struct spec_level *level, const struct candidate *candidate)
 {
 	const struct sums *sums = &candidate->sums;
 
-	if (sums->mended)
+	if (candidate->out || sums->mended)
 		return 0;
-	if (!level->of_mean)
-		return !candidate->out;
-	return sums->pixels == 0 ||
+	return !level->of_mean || sums->pixels == 0 ||
 	       sums->of[level->formula].sum / (double)sums->pixels <= level->bound;
 }
 
@@ -420,6 +428,7 @@ spec_level_apply(const struct spec_level *level, struct spec_reader *reader,
 	if (level->kind == SPEC_LEVEL_ALL)
 		return SPEC_OK;
 	comparison.width = spec_window_width(&comparison.image->data);
+	comparison.pixels = comparison.width * spec_window_height(&comparison.image->data);
 	comparison.wanted[SPEC_LEVEL_DE2000] =
 		report || level->formula == SPEC_LEVEL_DE2000;
 	status = apply(&comparison, reader, rgb, report, settings, error);

@@ -50,7 +50,8 @@ coarse() {
   spectral a.exr --pattern grain
   spec2rgb a.exr -o all.exr
   spec2rgb --lod 4 a.exr -o 4.exr
-  spec2rgb --lod 15 a.exr -o 15.exr
+  spec2rgb --lod 15 --error a.exr -o 15.exr 2>said
+  [ "$(sed -n '1,2p' said | tr -s ' ' | xargs)" = 'level 4 of 4 bands 16 of 16' ]
   spec2rgb --lod 3 a.exr -o 3.exr
   specdiff -m max -t max=0 all.exr 4.exr
   specdiff -m max -t max=0 all.exr 15.exr
@@ -199,6 +200,13 @@ coarse() {
     [ "$(reported $name said)" = "$(reported $name-rms said)" ]
     at_most 1e-3 "$(reported $name said)"
   done
+}
+
+@test "--error names the first of several pixels with the most" {
+  specconvert --patches 1x1 --patch 5 --grid 400:720:5 15-red -o equal.exr
+  spec2rgb --lod 1 --error equal.exr -o x.png 2>said
+  [ "$(grep -c ' at 0,0$' said)" = 2 ]
+  at_most 0.1 "$(reported de76-max said)"
 }
 
 @test "--error rms is the root of the mean square" {
