@@ -19,6 +19,7 @@
 #include "image/patches.h"
 #include "image/trace.h"
 #include "image/represented.h"
+#include "image/reproject.h"
 #include "image/strip.h"
 #include "image/writer.h"
 #include "place/own.h"
@@ -77,6 +78,9 @@ static const struct cli_option options[] = {
 	{0, "crop", "X0,Y0,X1,Y1",
 		"keep these pixels of the data window; x1, y1 are not in it"},
 	{0, "downsample", "N", "mean of N x N pixels"},
+	{0, "projection", "NAME[:HEIGHT]",
+		"lay what is all around out anew: latlong, cross, tall-cross,\n"
+		"octahedral; the input's shape tells its own"},
 	{0, "patches", "COLUMNSxROWS", "make a chart of patches from curves"},
 	{0, "patch", "PIXELS", "side of a patch (default: 1)"},
 	{0, "gap", "PIXELS", "black between the patches (default: 0)"},
@@ -121,6 +125,9 @@ struct job {
 	enum spec_strip_scaling scaling; /* of the strip */
 	struct spec_fromrgb_setup colours;
 	struct spec_placed placed;
+	int projects; /* the option was given */
+	enum spec_projection projection;
+	size_t height;                /* of it, or 0 */
 	int from_rgb, as;             /* the options were given */
 	unsigned long long clamped;   /* pixels whose colour was out of range */
 	int csv;                      /* the text is comma-separated values */
@@ -405,6 +412,10 @@ take(void *state, const char *name, const char *value, struct spec_error *error)
 		job->setup.has_crop = 1;
 		return spec_settings_crop(value, &job->setup.crop, error);
 	}
+	if (strcmp(name, "projection") == 0) {
+		job->projects = 1;
+		return spec_projection_parse(value, &job->projection, &job->height, error);
+	}
 	if (strcmp(name, "downsample") == 0)
 		return take_pixels(&job->setup.downsample, 1, "the factor", value, error);
 	if (strcmp(name, "format") == 0)
@@ -618,10 +629,11 @@ check_curve_options(const struct job *job, struct spec_error *error)
 				"curves (--multiply, --divide)");
 	}
 	if (job->setup.has_crop || job->setup.downsample > 1 || job->setup.bands ||
-		job->setup.bands_only || job->setup.per != SPEC_CONVERT_AS_IT_IS)
+		job->setup.bands_only || job->setup.per != SPEC_CONVERT_AS_IT_IS ||
+		job->projects)
 		return spec_error_set(error, SPEC_EUSAGE,
-			"--crop, --downsample, --band, --bands-only and --per are for images, "
-			"not for curves");
+			"--crop, --downsample, --projection, --band, --bands-only and --per are "
+			"for images, not for curves");
 	if (job->text > 0 && (job->patches.columns > 0 || job->patches.patch > 1 ||
 				     job->patches.gap > 0))
 		return spec_error_set(error, SPEC_EUSAGE,
@@ -773,6 +785,19 @@ convert_representation(struct job *job, struct spec_reader *reader, int argc, ch
 		reader, &job->to, &job->settings, argc, argv, &job->overflows, error);
 }
 
+/* What is all around keeps its bands. */
+static enum spec_status
+convert_projection(struct job *job, struct spec_reader *reader, int argc, char **argv,
+	struct spec_error *error)
+{
+	if (changes_image(job) || job->text || job->from_rgb || job->has_to)
+		return spec_error_set(error, SPEC_EUSAGE,
+			"change the image first, then its projection: specconvert ... | "
+			"specconvert --projection ...");
+	return spec_reproject_run(reader, job->projection, job->height, &job->settings,
+		argc, argv, &job->overflows, error);
+}
+
 /* Whether --to asks an image for something else than the bands that it has anyway. */
 static int
 leaves_bands(const struct job *job)
@@ -861,7 +886,9 @@ convert_image(const struct cli *cli, struct job *job, int argc, char **argv,
 		status = spec_placed_check(&job->placed, job->text, &job->settings, error);
 	if (status == SPEC_OK)
 		status = spec_placed_apply(&job->placed, spec_reader_header(reader), error);
-	if (status == SPEC_OK && job->text)
+	if (status == SPEC_OK && job->projects)
+		status = convert_projection(job, reader, argc, argv, error);
+	else if (status == SPEC_OK && job->text)
 		status = image_to_text(job, reader, error);
 	else if (status == SPEC_OK && job->from_rgb)
 		status = convert_colours(job, reader, argc, argv, error);
