@@ -1,7 +1,8 @@
 # shellcheck shell=bash disable=SC2016
-title 'Lights by formula: black bodies and daylight'
-from 'P and W: Planck, Stefan and Boltzmann, Wien, Kirchhoff; CIE 15:2018, equations 4.7 to 4.10; SI Brochure 2019'
+title 'Lights by formula, and the colours of displays'
+from 'P and W: Planck, Stefan and Boltzmann, Wien, Kirchhoff; CIE 15:2018, equations 4.7 to 4.10; SI Brochure 2019; SMPTE RP 177:1993, of primaries'
 note 'A name such as blackbody:3000K or daylight:6504K is a light wherever a program takes one.'
+note 'No display shows all colours. Bands of light of 30 nm, with ever more white, are brought into sRGB in three ways: each component is clipped by itself; every colour goes towards the grey of its luminance as far as it must; or the whole picture loses light and saturation by two factors.'
 
 cp "$here/plot.awk" .
 temperatures=(1500 2042 2856 4000 6504 10000)
@@ -101,3 +102,111 @@ check 'linear sRGB of the six less the matrix of IEC 61966-2-1:1999 times X, Y, 
 picture lights.png "specconvert --grid 360:830:5 --patches 6x2 --patch 60 ${temperatures[*]/%/K.spd} \\
   day-4000.spd day-5000.spd day-6500.spd day-8000.spd day-12000.spd day-25000.spd --scale 0.006 -o lights.exr
 spec2rgb lights.exr -o lights.png" 'above, black bodies of 1500 to 10000 K; below, daylight of 4000 to 25000 K; all alike at 560 nm'
+
+# Other spaces: their matrices follow from chromaticities alone.
+# spectra: Gaussian bands of 400 to 685 nm, in 20 columns, with 0, 1/4, 1/2 and 3/4 of white, in rows.
+awk 'BEGIN {
+  print "# quantity: spectral power distribution"
+  printf "# columns: wavelength_nm"
+  for (i = 0; i < 80; i++) printf " c%d", i
+  for (nm = 360; nm <= 830; nm += 5) {
+    printf "\n%d", nm
+    for (i = 0; i < 80; i++) {
+      white = int(i / 20) / 4
+      printf " %.6g", 1.5 * white + 2.4 * (1 - white) * exp(-((nm - 400 - 15 * (i % 20)) / 13) ^ 2 / 2)
+    }
+  }
+  print ""
+}' >bands.spd
+# components FILE: red, green and blue, or X, Y and Z, of each pixel, by rows of the image.
+components() {
+  specconvert --name-map "${2:-R=650nm,G=550nm,B=450nm}" "$1" | specconvert -f spd |
+    awk '/^[0-9]/ { n = NF; for (i = 2; i <= NF; i++) of[i] = $i " " of[i] } END { for (i = 2; i <= n; i++) print of[i] }'
+}
+run 'specconvert --patches 20x4 bands.spd -o bands.exr
+spec2rgb --space xyz bands.exr -o xyz.exr
+for space in srgb p3 dci-p3 rec2020 aces adobe; do spec2rgb --space $space bands.exr -o $space.exr; done'
+components xyz.exr X=650nm,Y=550nm,Z=450nm >xyz.txt
+while read -r space primaries; do
+  components "$space.exr" >"$space.txt"
+  # The nine numbers that take R, G, B of all pixels to X, Y, Z best (least squares).
+  check "$space: its matrix in the picture, less that of its primaries and white; over the largest number" \
+    "$(paste -d ' ' "$space.txt" xyz.txt | awk -v primaries="$primaries" '
+      function det(a, b, c, d, e, f, g, h, i) { return a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g) }
+      # Cramer: the amounts c[0..2] of three columns whose sum is r.
+      function solve(a0, a1, a2, b0, b1, b2, c0, c1, c2, r0, r1, r2, d) {
+        d = det(a0, b0, c0, a1, b1, c1, a2, b2, c2)
+        c[0] = det(r0, b0, c0, r1, b1, c1, r2, b2, c2) / d
+        c[1] = det(a0, r0, c0, a1, r1, c1, a2, r2, c2) / d
+        c[2] = det(a0, b0, r0, a1, b1, r1, a2, b2, r2) / d
+      }
+      NF == 6 { n++; for (i = 1; i <= 3; i++) for (j = 1; j <= 6; j++) of[i, j] += $i * $j }
+      END {
+        if (n != 80) exit
+        split(primaries, p, " ")
+        for (k = 0; k < 4; k++) { x[k, 0] = p[2 * k + 1]; x[k, 1] = p[2 * k + 2]; x[k, 2] = 1 - x[k, 0] - x[k, 1] }
+        solve(x[0, 0], x[0, 1], x[0, 2], x[1, 0], x[1, 1], x[1, 2], x[2, 0], x[2, 1], x[2, 2], x[3, 0] / x[3, 1], 1, x[3, 2] / x[3, 1])
+        for (k = 0; k < 3; k++) for (i = 0; i < 3; i++) {
+          wanted[k, i] = c[k] * x[k, i]
+          if (wanted[k, i] > most) most = wanted[k, i]
+        }
+        for (i = 0; i < 3; i++) {
+          solve(of[1, 1], of[2, 1], of[3, 1], of[1, 2], of[2, 2], of[3, 2], of[1, 3], of[2, 3], of[3, 3], of[1, i + 4], of[2, i + 4], of[3, i + 4])
+          for (k = 0; k < 3; k++) print (c[k] - wanted[k, i]) / most
+        }
+      }' | largest)" at-most 1e-7
+done <<'SPACES'
+srgb .64 .33 .30 .60 .15 .06 .3127 .3290
+p3 .68 .32 .265 .69 .15 .06 .3127 .3290
+dci-p3 .68 .32 .265 .69 .15 .06 .314 .351
+rec2020 .708 .292 .170 .797 .131 .046 .3127 .3290
+aces .7347 .2653 0 1 .0001 -.077 .32168 .33767
+adobe .64 .33 .21 .71 .15 .06 .3127 .3290
+SPACES
+check 'components of sRGB below 0 or above 1, of 240' "$(awk '{ for (i = 1; i <= 3; i++) n += $i < 0 || $i > 1 } END { print n }' srgb.txt)" at-least 60
+check 'those of ACES2065-1, which has all colours, below 0' "$(awk '{ for (i = 1; i <= 3; i++) n += $i < 0 } END { print n + 0 }' aces.txt)" equals 0
+
+# Into the gamut. Luminance is Y of sRGB'\''s matrix.
+picture clip.png 'specconvert --patches 20x4 --patch 24 bands.spd -o large.exr
+spec2rgb large.exr -o clip.png' 'clipped: hues change, and highlights lose their colour'
+picture desaturate.png 'spec2rgb --gamut desaturate large.exr -o desaturate.png' 'towards grey, as far as needed'
+picture scale.png 'spec2rgb --gamut scale large.exr -o scale.png' 'all by two factors'
+run 'spec2rgb bands.exr -o clip.ppm
+for gamut in desaturate scale; do spec2rgb --gamut $gamut bands.exr -o $gamut.exr; done'
+check 'clip: codes that are not those of each component by itself (IEC 61966-2-1:1999)' \
+  "$(tail -c 240 clip.ppm | od -A n -v -t u1 -w3 | paste -d ' ' - srgb.txt | awk '
+    function code(v) {
+      v = v < 0 ? 0 : v > 1 ? 1 : v
+      return int(255 * (v <= 0.0031308 ? 12.92 * v : 1.055 * exp(log(v) / 2.4) - 0.055) + 0.5)
+    }
+    NF == 6 { n++; for (i = 1; i <= 3; i++) bad += $i != code($(i + 3)) }
+    END { if (n == 80) print bad + 0 }')" equals 0
+for gamut in desaturate scale; do components $gamut.exr >$gamut.txt; done
+check 'desaturate: largest difference to the farthest point from grey that is in the space' \
+  "$(paste -d ' ' srgb.txt desaturate.txt | awk '
+    NF == 6 {
+      n++
+      grey = 0.2126390059 * $1 + 0.7151686788 * $2 + 0.0721923154 * $3
+      part = 1
+      for (i = 1; i <= 3; i++) {
+        if ($i < 0 && grey / (grey - $i) < part) part = grey / (grey - $i)
+        if ($i > 1 && (1 - grey) / ($i - grey) < part) part = (1 - grey) / ($i - grey)
+      }
+      if (grey >= 1) { part = 0; grey = 1 }
+      for (i = 1; i <= 3; i++) print grey + part * ($i - grey) - $(i + 3)
+    }
+    END { if (n != 80) print "pixels" }' | largest)" at-most 2e-7
+check 'scale: largest difference to all over the largest component, with saturation that the worst of all allows' \
+  "$(awk -v most=1 -v part=1 '
+    FNR == NR { for (i = 1; i <= 3; i++) if ($i > most) most = $i; next }
+    FILENAME == "srgb.txt" && ++line {
+      grey = 0.2126390059 * $1 + 0.7151686788 * $2 + 0.0721923154 * $3
+      for (i = 1; i <= 3; i++) { of[line, i] = $i; if ($i < 0 && grey / (grey - $i) < part) part = grey / (grey - $i) }
+      Y[line] = grey
+      next
+    }
+    { n++; for (i = 1; i <= 3; i++) print (Y[n] + part * (of[n, i] - Y[n])) / most - $i }
+    END { if (n != 80) print "pixels" }' srgb.txt srgb.txt scale.txt | largest)" at-most 2e-7
+for gamut in desaturate scale; do
+  check "$gamut: components outside the space" "$(awk '{ for (i = 1; i <= 3; i++) n += $i < -1e-7 || $i > 1 + 1e-7 } END { if (NR == 80) print n + 0 }' $gamut.txt)" equals 0
+done
