@@ -15,7 +15,7 @@
 #include "image/layer.h"
 #include "image/level.h"
 #include "image/separate.h"
-#include "spectrum/lookup.h"
+#include "place/own.h"
 
 #define NOTICEABLE 0.01 /* of Y outside the image's range: worth a warning */
 
@@ -28,8 +28,9 @@ static const struct cli_option options[] = {
 		"lab, xyy, or 'xr,yr xg,yg xb,yb xw,yw' (default: srgb)"},
 	{0, "transfer", "linear|srgb|rec709|rec2020|adobe|dci",
 		"encode whole numbers so (default: as the space has it)"},
-	{0, "adapt", "none|vonkries|bradford|cat02|cat16",
-		"adapt reflectance to the white of the space\n(default: none)"},
+	{0, "adapt", "none|vonkries|bradford|cat02|cat16|daylight",
+		"adapt reflectance to the white of the space, or light from\n"
+		"the daylight of its own place and time (default: none)"},
 	{'e', "exposure", "EV|auto|auto:P%",
 		"multiply by 2^EV (default: 0), or so that the average becomes\n"
 		"0.18, or the percentile 1"},
@@ -357,7 +358,9 @@ static enum spec_status
 plan(struct job *job, const struct spec_reader *reader, const struct spec_image *image,
 	const struct spec_space *space, struct spec_rgb *rgb, struct spec_error *error)
 {
-	struct spec_curve observer = {0}, illuminant = {0};
+	const struct spec_image *whole = spec_reader_image(reader);
+	const char *name = spec_reader_name(reader);
+	struct spec_curve observer = {0}, illuminant = {0}, light = {0};
 	struct spec_rgb_setup setup = {.observer = &observer,
 		.illuminant = &illuminant,
 		.space = space,
@@ -367,18 +370,22 @@ plan(struct job *job, const struct spec_reader *reader, const struct spec_image 
 	enum spec_status status = spec_observer_load(job->observer, &observer, error);
 
 	if (status == SPEC_OK)
-		status = spec_lookup_light(job->illuminant, &illuminant, error);
+		status = spec_own_lookup_light(
+			job->illuminant, whole, name, &illuminant, error);
 	if (status == SPEC_OK)
-		status = spec_adaptation_find(job->adapt, &setup.adaptation, error);
+		status = spec_own_adaptation(
+			job->adapt, whole, name, &setup.adaptation, &light, error);
+	setup.light = light.count > 0 ? &light : NULL;
 	if (status == SPEC_OK) {
 		status = spec_rgb_plan(rgb, image, &setup, error);
 		if (status != SPEC_OK)
-			spec_error_prefix(error, "%s", spec_reader_name(reader));
+			spec_error_prefix(error, "%s", name);
 	}
 	if (status == SPEC_OK && job->verbose && space == &job->space)
-		status = tell(job, spec_reader_name(reader), image, &setup, rgb, error);
+		status = tell(job, name, image, &setup, rgb, error);
 	spec_curve_free(&observer);
 	spec_curve_free(&illuminant);
+	spec_curve_free(&light);
 	return status;
 }
 

@@ -178,7 +178,7 @@ matrix_of(const struct spec_image *image, const struct spec_rgb_setup *setup,
 	    plain = setup->space->coordinates == SPEC_COORDINATES_RGB;
 	const double *to_xy =
 		plain ? setup->space->white_xy : spec_white_find("D50", error)->xy;
-	double adaptation[9], to[3];
+	double adaptation[9], to[3], from[3];
 	enum spec_status status = SPEC_OK;
 
 	if (spec_observer_is_xyz(setup->observer))
@@ -190,10 +190,16 @@ matrix_of(const struct spec_image *image, const struct spec_rgb_setup *setup,
 			"observer '%.200s' has no X, Y and Z to adapt to another white%s",
 			setup->observer->title, plain ? "" : ", or to make Lab or xyY of");
 	memcpy(white, seen_white, 3 * sizeof *white);
-	if (status != SPEC_OK || !reflective || setup->adaptation == SPEC_ADAPTATION_NONE)
+	memcpy(from, seen_white, sizeof from);
+	if (status != SPEC_OK || setup->adaptation == SPEC_ADAPTATION_NONE ||
+		(!reflective && !setup->light))
 		return status;
+	if (!reflective)
+		status = spec_observer_white(setup->observer, setup->light, from, error);
 	spec_white_xyz(to_xy, to);
-	status = spec_adaptation_matrix(setup->adaptation, white, to, adaptation, error);
+	if (status == SPEC_OK)
+		status = spec_adaptation_matrix(
+			setup->adaptation, from, to, adaptation, error);
 	if (status == SPEC_OK)
 		spec_matrix_multiply(m, adaptation, m);
 	memcpy(white, to, sizeof to);

@@ -21,8 +21,12 @@ struct spec_rgb_setup {
 	/* Where it sees no XYZ, its signals are the RGB, of no space, and not adapted. */
 	const struct spec_curve *observer;
 	const struct spec_curve *illuminant; /* of reflective images; null: equal energy */
-	/* Of reflective images, to the space's white, or to D50 where it has no RGB. */
+	/*
+	 * Of reflective images, to the space's white, or to D50 where it has no RGB; of
+	 * emissive ones from the colour of light, where it is not null, likewise.
+	 */
 	enum spec_adaptation adaptation;
+	const struct spec_curve *light;
 	const struct spec_space *space;
 	double exposure; /* in stops: everything is multiplied by 2^exposure */
 	enum spec_rule rule;
@@ -39,8 +43,8 @@ struct spec_rgb {
 	double *weight; /* [3 * terms]: red's, then green's, then blue's */
 	double outside; /* fraction of Y that the image's range leaves out */
 	/*
-	 * XYZ, with Y = 1, of what is white: of light, equal energy; of reflectance, the
-	 * perfect reflector, adapted.
+	 * XYZ, with Y = 1, of what is white: of light, equal energy, or what it was adapted
+	 * to; of reflectance, the perfect reflector, adapted.
 	 */
 	double white[3];
 	/*

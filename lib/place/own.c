@@ -1,11 +1,14 @@
 #include "place/own.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
+#include "base/memory.h"
 #include "base/text.h"
 #include "place/placed.h"
 #include "place/sunlight.h"
+#include "spectrum/lookup.h"
 
 #define NAME "daylight"
 #define PI 3.14159265358979323846
@@ -17,6 +20,43 @@ spec_own_light_is_named(const char *name)
 
 	return strncmp(name, NAME, length) == 0 &&
 	       (name[length] == '\0' || name[length] == ',');
+}
+
+enum spec_status
+spec_own_lookup_light(const char *name, const struct spec_image *image, const char *file,
+	struct spec_curve *curve, struct spec_error *error)
+{
+	return spec_own_light_is_named(name)
+		       ? spec_own_light(name, image, file, curve, error)
+		       : spec_lookup_light(name, curve, error);
+}
+
+enum spec_status
+spec_own_adaptation(const char *text, const struct spec_image *image, const char *file,
+	enum spec_adaptation *method, struct spec_curve *light, struct spec_error *error)
+{
+	const char *colon = strchr(text, ':');
+	char *name = spec_memory_text(
+		text, colon ? (size_t)(colon - text) : strlen(text), error);
+	enum spec_status status = name ? SPEC_OK : SPEC_ENOMEM;
+
+	*light = (struct spec_curve){0};
+	if (status == SPEC_OK && !spec_own_light_is_named(name)) {
+		status = spec_adaptation_find(text, method, error);
+	} else if (status == SPEC_OK && image->role == SPEC_ROLE_REFLECTIVE) {
+		status = spec_error_set(error, SPEC_EUSAGE,
+			"%s: " NAME
+			" adapts light; reflectance is lit by an illuminant, " NAME
+			" or another, and adapted from that",
+			file);
+	} else if (status == SPEC_OK) {
+		status =
+			spec_adaptation_find(colon ? colon + 1 : "bradford", method, error);
+		if (status == SPEC_OK)
+			status = spec_own_light(name, image, file, light, error);
+	}
+	free(name);
+	return status;
 }
 
 /* As sunlight.h names the light of such a place and time; to be freed. */

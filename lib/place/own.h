@@ -8,6 +8,7 @@
 #include <stddef.h>
 
 #include "base/error.h"
+#include "colour/space.h"
 #include "image/image.h"
 #include "spectrum/curve.h"
 #include "spectrum/operation.h"
@@ -22,6 +23,19 @@ int spec_own_light_is_named(const char *name);
  */
 enum spec_status spec_own_light(const char *name, const struct spec_image *image,
 	const char *file, struct spec_curve *curve, struct spec_error *error);
+
+/* That light, or any other by its name, as spec_lookup_light. */
+enum spec_status spec_own_lookup_light(const char *name, const struct spec_image *image,
+	const char *file, struct spec_curve *curve, struct spec_error *error);
+
+/*
+ * An adaptation by its name, as spec_adaptation_find; or, of an emissive image, from its own
+ * light, which light becomes: "daylight", and behind a colon the method, else Bradford's.
+ * light is empty otherwise. SPEC_EUSAGE: the image is reflective.
+ */
+enum spec_status spec_own_adaptation(const char *text, const struct spec_image *image,
+	const char *file, enum spec_adaptation *method, struct spec_curve *light,
+	struct spec_error *error);
 
 /* Gives the operations that spec_operation_defer left without it their light. */
 enum spec_status spec_own_settle(struct spec_operation *operation, size_t operations,

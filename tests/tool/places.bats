@@ -211,3 +211,45 @@ trouble() {
   trouble 'the sun is' specconvert --place '80N 5E' --time 2005-12-17T12:00Z --reflectance-of daylight a.exr
   no_leftovers . a.exr b.exr
 }
+
+# white TIME: white.exr, a white surface, and lit.exr, its light in the daylight of that time.
+white() {
+  printf '%s\n' '# quantity: reflectance' '380 1' '780 1' >white.spd
+  specconvert -g 380:780:5 --patches 1x1 white.spd --place '50.875N 4.75E' --time "$1" -o white.exr
+  specconvert --illuminate daylight white.exr -o lit.exr
+}
+
+# colour OPTION...: the picture's linear R, G and B, over their sum.
+colour() {
+  spec2rgb "$@" --transfer linear -f ppm --bits 16 | tail -c 6 | od -A n -t u2 --endian=big |
+    awk '{ sum = $1 + $2 + $3; printf "%.4f %.4f %.4f\n", $1 / sum, $2 / sum, $3 / sum }'
+}
+
+@test "spec2rgb adapts light from the daylight of its own place and time" {
+  white 2005-05-17T12:00+02:00
+  # At 5756 K it is redder than the white of sRGB.
+  read -r red _ blue < <(colour lit.exr)
+  nearly "$(awk "BEGIN { print ($red > 1.2 * $blue) }")" 1 0
+  for adapt in daylight daylight:cat16 daylight:vonkries daylight:bradford daylight:cat02; do
+    read -r red green blue < <(colour --adapt $adapt lit.exr)
+    nearly "$red" .33333 .0002
+    nearly "$green" .33333 .0002
+    nearly "$blue" .33333 .0002
+  done
+  # Under that light as the illuminant, reflectance has the same colour, and is adapted as ever.
+  nearly "$(colour -e -1 --illuminant daylight white.exr | cut -d ' ' -f 1)" \
+    "$(colour lit.exr | cut -d ' ' -f 1)" .0005
+  nearly "$(colour -e -1 --illuminant daylight --adapt bradford white.exr | cut -d ' ' -f 1)" .33333 .0002
+}
+
+@test "light that cannot be adapted from its daylight" {
+  white 2005-05-17T12:00+02:00
+  trouble 'white.exr: daylight adapts light' spec2rgb --adapt daylight white.exr -o a.png
+  trouble "unknown adaptation 'best'" spec2rgb --adapt daylight:best lit.exr -o a.png
+  specconvert --time 2005-05-17T23:00+02:00 lit.exr -o night.exr
+  trouble 'degrees below the horizon' spec2rgb --adapt daylight night.exr -o a.png
+  spectral nowhere.exr --grid 400:700:20
+  trouble 'nowhere.exr: does not say where it was taken' spec2rgb --adapt daylight nowhere.exr -o a.png
+  trouble 'nowhere.exr: does not say where it was taken' spec2rgb --illuminant daylight nowhere.exr -o a.png
+  no_leftovers . lit.exr night.exr nowhere.exr white.exr white.spd
+}
