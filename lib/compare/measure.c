@@ -402,7 +402,7 @@ find_colours(struct chunk *chunk)
 {
 	double *const a[3] = {chunk->xyz_a, chunk->xyz_a + CHUNK, chunk->xyz_a + 2 * CHUNK};
 	double *const b[3] = {chunk->xyz_b, chunk->xyz_b + CHUNK, chunk->xyz_b + 2 * CHUNK};
-	unsigned char same[CHUNK];
+	unsigned char same[CHUNK] = {0};
 
 	for (size_t i = 0; i < chunk->n; i++)
 		same[i] =

@@ -3,7 +3,7 @@
  *
  *   peak FILE COMMAND [ARGUMENT]...
  *
- * Appends "SECONDS KIBIBYTES STATUS" to FILE. The exit status is the command's, or 128
+ * Appends "SECONDS KIBIBYTES STATUS CPU-SECONDS" to FILE. The exit status is the command's, or 128
  * plus the signal that ended it.
  *
  * The child of a fork begins with its parent's peak, so this program must stay small:
@@ -25,6 +25,12 @@ now(void)
 
 	clock_gettime(CLOCK_MONOTONIC, &time);
 	return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
+}
+
+static double
+seconds(struct timeval time)
+{
+	return (double)time.tv_sec + 1e-6 * (double)time.tv_usec;
 }
 
 static int
@@ -64,7 +70,8 @@ main(int argc, char **argv)
 			return fail("wait");
 	}
 	status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-	if (dprintf(file, "%.4f %ld %d\n", now() - start, usage.ru_maxrss, status) < 0)
+	if (dprintf(file, "%.4f %ld %d %.4f\n", now() - start, usage.ru_maxrss, status,
+		    seconds(usage.ru_utime) + seconds(usage.ru_stime)) < 0)
 		return fail(argv[1]);
 	return status;
 }
