@@ -170,7 +170,7 @@ scaled() {
   # By their samples: 1/4 and 3/4 of the means.
   for name in variance.S0.{4,5,6,7}00,000000nm; do
     for file in 1 2 merged; do
-      "$TESTS/layers" --print 8,12 $file.exr | awk -v name=$name '$1 == name { print $2 }'
+      "$TESTS/layers" --print 8,12 $file.exr | awk -v name="$name" '$1 == name { print $2 }'
     done | xargs | awk '{ wanted = $1 / 16 + $2 * 9 / 16; exit !($3 > 0 && ($3 / wanted - 1) ^ 2 < 1e-10) }' || complain "$name"
   done
   speccomp --op subtract 2.exr 2.exr -o zero.exr

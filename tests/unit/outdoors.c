@@ -338,7 +338,8 @@ test_radiance(void **state)
 	open_light(&f, "WorldBegin " DAYLIGHT NOON, "340:700:20");
 	sun = &f.scene.light[0].daylight->sun;
 	for (int i = 0; i < 40; i++) {
-		double azimuth = i % 8 * 45, elevation = i / 8 * 18 + .1;
+		int column = i % 8, row = i / 8;
+		double azimuth = column * 45, elevation = row * 18 + .1;
 		double d[3] = {cos(elevation * RADIANS) * sin(azimuth * RADIANS),
 			cos(elevation * RADIANS) * cos(azimuth * RADIANS),
 			sin(elevation * RADIANS)};
