@@ -301,7 +301,7 @@ check_date(struct spec_linting *linting)
 	free(text);
 }
 
-/* Half of what says where or when. */
+/* Half of what says where or when; a date alone is a local time, as cameras note it. */
 static void
 check_pair(struct spec_linting *linting, const char *one, const char *other)
 {
@@ -332,6 +332,5 @@ spec_linting_attributes(struct spec_linting *linting)
 	check_date(linting);
 	check_pair(linting, "longitude", "latitude");
 	check_pair(linting, "latitude", "longitude");
-	check_pair(linting, "capDate", "utcOffset");
 	check_pair(linting, "utcOffset", "capDate");
 }
