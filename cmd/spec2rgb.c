@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/memory.h"
 #include "base/number.h"
 #include "base/output.h"
 #include "cli/options.h"
@@ -320,6 +321,7 @@ parse(struct cli *cli, struct job *job)
 			       "pictures, not for --model");
 	if (job->error && job->level.kind == SPEC_LEVEL_ALL)
 		cli_usage(cli, "--error is of --step or --lod");
+	job->level.measured = job->error;
 	job->settings.reread = job->error || job->level.kind == SPEC_LEVEL_BOUNDED;
 	if (job->settings.reread && job->look.metering != SPEC_METERING_NONE)
 		cli_usage(
@@ -401,10 +403,32 @@ leave_out(struct job *job, struct spec_reader *reader, const struct spec_image *
 		status = plan(
 			job, reader, image, spec_space_find("xyz", error), &seen, error);
 	if (status == SPEC_OK)
-		status = spec_level_apply(&job->level, reader, image, &seen, rgb,
-			job->error ? report : NULL, &job->settings, error);
+		status = spec_level_apply(&job->level, reader, image, &seen, rgb, report,
+			&job->settings, error);
 	spec_rgb_free(&seen);
 	return status;
+}
+
+/* Adds to what --verbose tells which bands were kept. */
+static enum spec_status
+tell_level(struct job *job, const char *name, const struct spec_level_report *report,
+	struct spec_error *error)
+{
+	char text[SPEC_LEVEL_TEXT], *longer;
+	size_t size;
+
+	if (!job->verbose || job->level.kind == SPEC_LEVEL_ALL)
+		return SPEC_OK;
+	spec_level_text(&job->level, report, text);
+	fprintf(stderr, "%s: %s: %s\n", program.name, name, text);
+	size = strlen(job->account) + strlen(text) + sizeof "; ";
+	longer = spec_memory_new(size, 1, "bytes", error);
+	if (!longer)
+		return SPEC_ENOMEM;
+	snprintf(longer, size, "%s; %s", job->account, text);
+	free(job->account);
+	job->account = longer;
+	return SPEC_OK;
 }
 
 static void
@@ -582,6 +606,8 @@ show_colours(struct cli *cli, struct job *job, struct spec_reader *reader,
 
 	if (status == SPEC_OK)
 		status = leave_out(job, reader, image, &rgb, &report, &error);
+	if (status == SPEC_OK)
+		status = tell_level(job, name, &report, &error);
 	if (status != SPEC_OK)
 		cli_progress_end(progress);
 	cli_check(cli, status, &error);

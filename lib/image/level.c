@@ -2,6 +2,7 @@
 
 #include <math.h>
 #include <stdatomic.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -390,7 +391,7 @@ apply(struct comparison *comparison, struct spec_reader *reader, struct spec_rgb
 	const struct spec_level *level = comparison->level;
 	struct candidate *chosen;
 	struct spec_rgb fewer;
-	int compared = comparison->bounded || report;
+	int compared = comparison->bounded || level->measured;
 	enum spec_status status = make_candidates(comparison, compared, error);
 
 	if (status == SPEC_OK && compared)
@@ -408,8 +409,7 @@ apply(struct comparison *comparison, struct spec_reader *reader, struct spec_rgb
 		return status;
 	spec_rgb_free(rgb);
 	*rgb = fewer;
-	if (report)
-		make_report(chosen, comparison->image, report);
+	make_report(chosen, comparison->image, report);
 	return SPEC_OK;
 }
 
@@ -430,7 +430,7 @@ spec_level_apply(const struct spec_level *level, struct spec_reader *reader,
 	comparison.width = spec_window_width(&comparison.image->data);
 	comparison.pixels = comparison.width * spec_window_height(&comparison.image->data);
 	comparison.wanted[SPEC_LEVEL_DE2000] =
-		report || level->formula == SPEC_LEVEL_DE2000;
+		level->measured || level->formula == SPEC_LEVEL_DE2000;
 	status = apply(&comparison, reader, rgb, report, settings, error);
 	if (status != SPEC_OK && level->kind == SPEC_LEVEL_STEP && status == SPEC_EUSAGE)
 		spec_error_prefix(error, "%s", spec_reader_name(reader));
@@ -440,4 +440,18 @@ spec_level_apply(const struct spec_level *level, struct spec_reader *reader,
 	}
 	free(comparison.candidate);
 	return status;
+}
+
+void
+spec_level_text(const struct spec_level *level, const struct spec_level_report *report,
+	char text[SPEC_LEVEL_TEXT])
+{
+	if (level->kind == SPEC_LEVEL_STEP)
+		snprintf(text, SPEC_LEVEL_TEXT,
+			"%zu of %zu bands, each for those up to the next", report->bands,
+			report->of);
+	else
+		snprintf(text, SPEC_LEVEL_TEXT,
+			"%zu of %zu bands, level %d, straight lines between them",
+			report->bands, report->of, report->number);
 }

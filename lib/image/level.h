@@ -30,6 +30,7 @@ struct spec_level {
 	enum spec_level_formula formula; /* BOUNDED, as the next */
 	int of_mean;                     /* the mean over the pixels is bounded, not each */
 	double bound;                    /* at least 0 */
+	int measured; /* the report is to have differences; the parser says no */
 };
 
 /*
@@ -45,8 +46,9 @@ enum spec_status spec_level_parse_step(
 
 /* What was chosen, and how far it is from all bands. */
 struct spec_level_report {
-	int number, finest;  /* the level, and the one with all bands; -1 for a step */
-	size_t bands, of;    /* that are kept, of how many */
+	int number, finest; /* the level, and the one with all bands; -1 for a step */
+	size_t bands, of;   /* that are kept, of how many */
+	/* The rest is 0 unless the level was measured or bounded. */
 	long long pixels;    /* that were compared */
 	long long nonfinite; /* that were not: of all bands or of those kept not finite */
 	struct spec_level_difference {
@@ -56,9 +58,9 @@ struct spec_level_report {
 };
 
 /*
- * Takes bands out of a plan, by the level. Where the level is bounded, or a report is wanted
- * (not null), all lines of the image are read and compared, and the reader must have been
- * opened with settings->reread.
+ * Takes bands out of a plan, by the level. Where that is bounded or to be measured all lines
+ * of the image are read and compared, and the reader must have been opened with
+ * settings->reread. Without a level nothing is done, and the report stays as it was.
  * Given:    image  the reader's, or a layer of it
  *           seen  the plan of the same image, observer, light and exposure in X, Y and Z;
  *                 read only to compare
@@ -73,5 +75,10 @@ enum spec_status spec_level_apply(const struct spec_level *level,
 	struct spec_reader *reader, const struct spec_image *image,
 	const struct spec_rgb *seen, struct spec_rgb *rgb, struct spec_level_report *report,
 	const struct spec_settings *settings, struct spec_error *error);
+
+/* In words, such as "9 of 81 bands, level 3, straight lines between them". */
+#define SPEC_LEVEL_TEXT 128
+void spec_level_text(const struct spec_level *level, const struct spec_level_report *report,
+	char text[SPEC_LEVEL_TEXT]);
 
 #endif

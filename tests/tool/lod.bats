@@ -236,6 +236,24 @@ coarse() {
   close "$(awk "BEGIN { print $(reported de76 bright) / $(reported de76 plain) }")" 2 0.05
 }
 
+@test "--verbose tells the bands that were kept, also in the picture" {
+  spectral a.exr --grid 400:720:5 --pattern grain
+  for option in '--lod 3:9 of 65 bands, level 3, straight lines between them' \
+    '--step 40:9 of 65 bands, each for those up to the next' \
+    '--lod de76-max=1e6:2 of 65 bands, level 0, straight lines between them'; do
+    args=${option%%:*}
+    # shellcheck disable=SC2086 # words
+    spec2rgb -v ${args/=/:} a.exr -o x.exr 2>said
+    [ "$(tail -n 1 said)" = "spec2rgb: a.exr: ${option#*:}" ] || complain "$(<said)"
+    exrheader x.exr | grep -q "^spec:integration .*; ${option#*:}\"$"
+  done
+  spec2rgb -v a.exr -o x.exr 2>said
+  [ "$(wc -l <said)" = 1 ]
+  exrheader x.exr | { run ! grep 'spec:integration.*65 bands'; }
+  spec2rgb --lod 3 a.exr -o x.exr 2>said
+  [ ! -s said ]
+}
+
 # The bound
 
 @test "a bound of every pixel is kept, and no coarser level keeps it" {
