@@ -552,11 +552,12 @@ prepare(struct job *job, const struct spec_image *image, const char *name,
 {
 	struct spec_falsecolour_setup *painted = &job->painted;
 	struct spec_curve observer = {0};
+	struct spec_view_setup shown = job->shown;
 	enum spec_status status = spec_observer_load(job->observer, &observer, error);
 
-	job->shown.observer = &observer;
+	shown.observer = &observer;
 	if (status == SPEC_OK)
-		status = spec_view_make(view, image, name, &job->shown, error);
+		status = spec_view_make(view, image, name, &shown, error);
 	spec_curve_free(&observer);
 	if (status != SPEC_OK)
 		return status;
@@ -589,6 +590,7 @@ show_false(struct cli *cli, struct job *job, struct spec_reader *reader,
 	cli_progress_end(progress);
 	cli_check(cli, status, &error);
 	warn_nonfinite(cli, job, name, seen.nonfinite, seen.first_x, seen.first_y);
+	job->painted.view = NULL;
 	spec_view_free(&view);
 }
 

@@ -21,6 +21,7 @@
 #include "image/represented.h"
 #include "image/reproject.h"
 #include "image/strip.h"
+#include "image/vectors.h"
 #include "image/writer.h"
 #include "place/own.h"
 #include "place/placed.h"
@@ -62,6 +63,9 @@ static const struct cli_option options[] = {
 		"make spectra of the colours of an image, or of '#rrggbb'"},
 	{0, "as", "reflectance|light|unbounded",
 		"what they become (default: reflectance; after sun, light)"},
+	{0, "vectors", "NAME",
+		"make NAME.X, NAME.Y, NAME.Z of the codes of a picture, 2 c - 1,\n"
+		"as of normals by spec2rgb --layer N"},
 	{0, "extrapolate", "refuse|zero|constant",
 		"what lies outside the data (default: refuse)"},
 	{0, "to", "KIND",
@@ -125,7 +129,8 @@ struct job {
 	enum spec_strip_scaling scaling; /* of the strip */
 	struct spec_fromrgb_setup colours;
 	struct spec_placed placed;
-	int projects; /* the option was given */
+	const char *vectors; /* their name, or null */
+	int projects;        /* the option was given */
 	enum spec_projection projection;
 	size_t height;                /* of it, or 0 */
 	int from_rgb, as;             /* the options were given */
@@ -412,6 +417,10 @@ take(void *state, const char *name, const char *value, struct spec_error *error)
 		job->setup.has_crop = 1;
 		return spec_settings_crop(value, &job->setup.crop, error);
 	}
+	if (strcmp(name, "vectors") == 0) {
+		job->vectors = value;
+		return SPEC_OK;
+	}
 	if (strcmp(name, "projection") == 0) {
 		job->projects = 1;
 		return spec_projection_parse(value, &job->projection, &job->height, error);
@@ -630,9 +639,9 @@ check_curve_options(const struct job *job, struct spec_error *error)
 	}
 	if (job->setup.has_crop || job->setup.downsample > 1 || job->setup.bands ||
 		job->setup.bands_only || job->setup.per != SPEC_CONVERT_AS_IT_IS ||
-		job->projects)
+		job->projects || job->vectors)
 		return spec_error_set(error, SPEC_EUSAGE,
-			"--crop, --downsample, --projection, --band, --bands-only and --per are "
+			"--crop, --downsample, --projection, --vectors, --band, --bands-only and --per are "
 			"for images, not for curves");
 	if (job->text > 0 && (job->patches.columns > 0 || job->patches.patch > 1 ||
 				     job->patches.gap > 0))
@@ -785,15 +794,21 @@ convert_representation(struct job *job, struct spec_reader *reader, int argc, ch
 		reader, &job->to, &job->settings, argc, argv, &job->overflows, error);
 }
 
-/* What is all around keeps its bands. */
+/* What is all around is laid out anew, or a picture's codes are vectors. */
 static enum spec_status
-convert_projection(struct job *job, struct spec_reader *reader, int argc, char **argv,
+convert_layout(struct job *job, struct spec_reader *reader, int argc, char **argv,
 	struct spec_error *error)
 {
-	if (changes_image(job) || job->text || job->from_rgb || job->has_to)
+	const char *option = job->vectors ? "--vectors" : "--projection";
+
+	if (changes_image(job) || job->text || job->from_rgb || job->has_to ||
+		(job->vectors && job->projects))
 		return spec_error_set(error, SPEC_EUSAGE,
-			"change the image first, then its projection: specconvert ... | "
-			"specconvert --projection ...");
+			"%s does nothing else on the way: specconvert ... | specconvert %s ...",
+			option, option);
+	if (job->vectors)
+		return spec_vectors_run(
+			reader, job->vectors, &job->settings, argc, argv, error);
 	return spec_reproject_run(reader, job->projection, job->height, &job->settings,
 		argc, argv, &job->overflows, error);
 }
@@ -886,8 +901,8 @@ convert_image(const struct cli *cli, struct job *job, int argc, char **argv,
 		status = spec_placed_check(&job->placed, job->text, &job->settings, error);
 	if (status == SPEC_OK)
 		status = spec_placed_apply(&job->placed, spec_reader_header(reader), error);
-	if (status == SPEC_OK && job->projects)
-		status = convert_projection(job, reader, argc, argv, error);
+	if (status == SPEC_OK && (job->projects || job->vectors))
+		status = convert_layout(job, reader, argc, argv, error);
 	else if (status == SPEC_OK && job->text)
 		status = image_to_text(job, reader, error);
 	else if (status == SPEC_OK && job->from_rgb)

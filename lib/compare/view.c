@@ -135,7 +135,7 @@ static enum spec_status
 make_program(const struct maker *maker, const char *text)
 {
 	struct spec_view *view = maker->view;
-	size_t channel = SPEC_PROGRAM_NONE, band;
+	size_t channel = SPEC_PROGRAM_NONE, band = 0;
 	struct spec_program_place place = {.image = &maker->image,
 		.name = &maker->name,
 		.channel = &channel,
@@ -175,7 +175,7 @@ weigh_bands(const struct maker *maker, double *weight)
 	const struct spec_image *image = maker->image;
 	struct spec_bands bands = {image->bands, image->wavelength_nm, image->edges_nm, 0};
 	double outside, *xyz;
-	size_t band;
+	size_t band = 0;
 	char *quantity;
 	enum spec_status status = SPEC_ENOMEM;
 
@@ -300,10 +300,11 @@ enum spec_status
 spec_view_make(struct spec_view *view, const struct spec_image *image, const char *name,
 	const struct spec_view_setup *setup, struct spec_error *error)
 {
-	struct maker maker = {view, image, name, setup, error};
+	struct maker maker = {NULL, image, name, setup, error};
 	enum spec_status status;
 
 	*view = (struct spec_view){.numbers = 1, .map = "viridis", .image = image};
+	maker.view = view;
 	if (setup->polarisation) {
 		view->polarisation = setup->polarisation;
 		view->map = setup->polarisation->map;

@@ -77,7 +77,7 @@ quarter(const struct spec_panorama *panorama)
 		return (double)panorama->height * sqrt(PI) / 4;
 	if (panorama->projection == SPEC_PROJECTION_LATLONG)
 		return (double)panorama->width / 4;
-	return (double)(panorama->width / shapes[panorama->projection].wide);
+	return (double)panorama->width / (double)shapes[panorama->projection].wide;
 }
 
 struct spec_panorama
@@ -311,7 +311,7 @@ blend_cross(const struct spec_panorama *panorama, const double direction[3],
 	for (int k = 0; k < 4; k++) {
 		blend->part[k] = (k % 2 ? right : 1 - right) * (k / 2 ? down : 1 - down);
 		blend->pixel[k] =
-			pixel_across(panorama, face, floor(x) + k % 2, floor(y) + k / 2);
+			pixel_across(panorama, face, floor(x) + k % 2, floor(y) + (k > 1));
 	}
 }
 

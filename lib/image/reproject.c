@@ -125,9 +125,10 @@ work_out(const struct reprojection *it, size_t x, size_t y, double *sum, float *
 	const float *whole = nearest(it, (double)x + .5, (double)y + .5);
 	struct taps taps = {.count = 0};
 
-	for (size_t i = 0; i < ACROSS * ACROSS; i++)
-		add_place(it, (double)x + ((double)(i % ACROSS) + .5) / ACROSS,
-			(double)y + ((double)(i / ACROSS) + .5) / ACROSS, &taps);
+	for (size_t i = 0; i < ACROSS; i++)
+		for (size_t j = 0; j < ACROSS; j++)
+			add_place(it, (double)x + ((double)j + .5) / ACROSS,
+				(double)y + ((double)i + .5) / ACROSS, &taps);
 	memset(sum, 0, channels * sizeof *sum);
 	for (size_t i = 0; i < taps.count; i++) {
 		if (taps.part[i] > 0)

@@ -228,6 +228,26 @@ END
         if (d * d > (1.001 / 255) ^ 2 || f * f > 1e-12 || NF != 3) { print; bad = 1 } } END { exit bad || NR != 3 }' ||
       complain "$place"
   done
+  # and by specconvert, from codes of 8 and of 16 bits, and from floats
+  spec2rgb --layer film1.N ball.exr -o n.png
+  spec2rgb --layer film1.N --bits 16 ball.exr -o n16.png
+  local name most
+  for name in 'n.png 3.94e-3' 'n16.png 1.54e-5' 'n.exr 2e-7'; do
+    read -r name most <<<"$name"
+    cat "$name" | specconvert --vectors N -o back.exr
+    has_channels back.exr N.X N.Y N.Z
+    for place in 16,16 8,20 20,9; do
+      paste <(layers --print "$place" back.exr) <(layers --print "$place" ball.exr | grep '^film1\.N\.') |
+        awk -v most="$most" '{ d = $2 - $4; if (d * d > most * most || NF != 4) { print; bad = 1 } } END { exit bad || NR != 3 }' ||
+        complain "$name $place"
+    done
+  done
+  fails_cleanly specconvert --vectors N ball.exr -o x.exr
+  fails_cleanly specconvert --vectors '' n.png -o x.exr
+  fails_cleanly specconvert --vectors N --scale 2 n.png -o x.exr
+  fails_cleanly specconvert --vectors N --projection cross n.png -o x.exr
+  fails_cleanly specconvert --vectors N D65 -o x.exr
+  [ ! -e x.exr ]
   # Towards the eye: (0, 1, 0)
   is '128 255 128' eye.ppm 16 16
   # nothing is there: 0

@@ -6,7 +6,7 @@ load common
 
 # sky FILE HEIGHT: latitude and longitude; a radiance of 1 + x/8 + y/4 + z/2 in each direction.
 sky() {
-  spectral grid.exr --size $((2 * $2))x$2 --grid 400:700:100 --pattern constant:1
+  spectral grid.exr --size $((2 * $2))"x$2" --grid 400:700:100 --pattern constant:1
   speccomp --expr 't = pi * (y + 0.5) / height; p = 2 * pi * (x + 0.5) / width;
     nm / 400 * (1 + sin(t) * cos(p) / 8 + sin(t) * sin(p) / 4 + cos(t) / 2)' grid.exr -o "$1"
 }
@@ -61,7 +61,7 @@ shows() {
     specconvert --projection $way ll.exr | specconvert --projection latlong:64 -o back.exr
     # linear between pixels of 2.8 degrees, twice; the square has edges in its middle
     [ $way = octahedral ] && most=0.02 || most=0.004
-    specdiff -m max -t max=$most ll.exr back.exr || complain "$way"
+    specdiff -m max -t max="$most" ll.exr back.exr || complain "$way"
   done
 }
 
