@@ -213,7 +213,7 @@ enum spec_status
 spec_instant_from_reading(const struct spec_reading *reading, struct spec_instant *instant,
 	struct spec_error *error)
 {
-	int odd = reading->offset_s % 60;
+	int odd = reading->offset_s % 60, whole = reading->offset_s / 60;
 	double day, minutes, second = reading->second;
 	enum spec_status status = find_day(reading, &day, error);
 
@@ -226,7 +226,7 @@ spec_instant_from_reading(const struct spec_reading *reading, struct spec_instan
 	if (abs(reading->offset_s) > SPEC_INSTANT_FURTHEST_S)
 		return spec_error_set(error, SPEC_ERANGE,
 			"an offset from UTC is at most a day, not %d s", reading->offset_s);
-	minutes = reading->hour * 60.0 + reading->minute - (reading->offset_s - odd) / 60;
+	minutes = reading->hour * 60.0 + reading->minute - whole;
 	second -= odd;
 	if (odd != 0) {
 		minutes += floor(second / 60);
@@ -240,13 +240,13 @@ struct spec_reading
 spec_instant_reading(const struct spec_instant *instant, int decimals)
 {
 	struct spec_reading reading = {.offset_s = instant->offset_s};
-	int odd = instant->offset_s % 60, fields[4] = {0};
+	int odd = instant->offset_s % 60, whole = instant->offset_s / 60, fields[4] = {0};
 	double zero, day, minutes, fraction;
 
 	(void)eraD2dtf("UTC", decimals, instant->utc1, instant->utc2, &reading.year,
 		&reading.month, &reading.day, fields);
 	reading.second = fields[2] + fields[3] * pow(10, -decimals);
-	minutes = fields[0] * 60.0 + fields[1] + (instant->offset_s - odd) / 60;
+	minutes = fields[0] * 60.0 + fields[1] + whole;
 	if (odd != 0) {
 		reading.second += odd;
 		minutes += floor(reading.second / 60);
