@@ -162,6 +162,7 @@ static enum spec_status
 read_atmosphere(const struct spec_arguments *arguments, const struct spec_place *place,
 	struct spec_atmosphere *atmosphere)
 {
+	struct spec_error cause = {0};
 	double turbidity;
 	enum spec_status status;
 
@@ -173,9 +174,10 @@ read_atmosphere(const struct spec_arguments *arguments, const struct spec_place 
 	if (status == SPEC_OK)
 		status = spec_arguments_number(
 			arguments, "albedo", 0, 1, &atmosphere->ground_albedo);
-	return status == SPEC_OK ? spec_atmosphere_set_turbidity(
-					   atmosphere, turbidity, arguments->error)
-				 : status;
+	if (status != SPEC_OK)
+		return status;
+	status = spec_atmosphere_set_turbidity(atmosphere, turbidity, &cause);
+	return status == SPEC_OK ? status : blame(arguments, "turbidity", status, &cause);
 }
 
 static enum spec_status
@@ -222,6 +224,7 @@ spec_outdoors_face(const struct spec_arguments *arguments, struct spec_transform
 	struct spec_transform view = spec_transform_identity();
 	struct spec_place from, to;
 	struct spec_geodesic way;
+	struct spec_error cause = {0};
 	double elevation = 0, look[3], column[16];
 	enum spec_status status;
 
@@ -235,10 +238,11 @@ spec_outdoors_face(const struct spec_arguments *arguments, struct spec_transform
 	if (status == SPEC_OK)
 		status = spec_arguments_number(
 			arguments, "elevation", -STEEPEST_DEG, STEEPEST_DEG, &elevation);
-	if (status == SPEC_OK)
-		status = spec_place_geodesic(&from, &to, &way, arguments->error);
 	if (status != SPEC_OK)
 		return status;
+	status = spec_place_geodesic(&from, &to, &way, &cause);
+	if (status != SPEC_OK)
+		return blame(arguments, "toward", status, &cause);
 	if (!(way.distance_m > NEAREST_M))
 		return spec_arguments_fail(arguments,
 			spec_arguments_find(arguments, "toward"), SPEC_ERANGE,
@@ -246,13 +250,13 @@ spec_outdoors_face(const struct spec_arguments *arguments, struct spec_transform
 	look[0] = cos(elevation * RADIANS) * sin(way.bearing_deg * RADIANS);
 	look[1] = sin(elevation * RADIANS);
 	look[2] = cos(elevation * RADIANS) * cos(way.bearing_deg * RADIANS);
-	status = spec_transform_look_at(&view, eye, look, up, arguments->error);
+	status = spec_transform_look_at(&view, eye, look, up, &cause);
 	for (int i = 0; i < 16; i++)
 		column[i] = camera->m[i % 4][i / 4];
 	if (status == SPEC_OK)
-		status = spec_transform_concat(&view, column, arguments->error);
+		status = spec_transform_concat(&view, column, &cause);
 	if (status != SPEC_OK)
-		return status;
+		return blame(arguments, "toward", status, &cause);
 	*camera = view;
 	arguments->scene->has_place = 1;
 	arguments->scene->place = from;
