@@ -188,3 +188,18 @@ scaled() {
   # What is known better tells smaller differences.
   specdiff -q --same-within 3sigma 1.exr merged.exr
 }
+
+@test "a crop has the variances of the whole picture" {
+  ball a.pbrt .1
+  render --variance --spp 16 a.pbrt -o a.exr
+  render --variance --spp 16 --crop 6,10,9,13 a.pbrt -o part.exr
+  specconvert --crop 6,10,9,13 a.exr -o cut.exr
+  specdiff -q --exact part.exr cut.exr
+  # 64 times the samples: less than a sixteenth of the variance, and more than nothing.
+  render --variance --spp 1024 a.pbrt -o fine.exr
+  "$TESTS/layers" --print 8,12 a.exr >few
+  "$TESTS/layers" --print 8,12 fine.exr | awk '
+    FNR == NR { few[$1] = $2; next }
+    /^variance/ { rows++; if ($2 <= 0 || $2 > few[$1] / 16) exit 1 } END { if (rows != 4) exit 1 }' few - ||
+    complain "$(cat few)" "$("$TESTS/layers" --print 8,12 fine.exr)"
+}
