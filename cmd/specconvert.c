@@ -32,6 +32,7 @@
 #include "spectrum/spd.h"
 
 #define MOST_CURVES 4096
+#define MOST_PIXELS (1 << 16)
 #define LEAST 1e-3 /* of the most light, for --reflectance-of */
 
 static const struct cli_option options[] = {
@@ -141,19 +142,6 @@ struct job {
 	struct spec_settings settings;
 };
 
-static enum spec_status
-take_pixels(int *pixels, long long least, const char *what, const char *text,
-	struct spec_error *error)
-{
-	long long value;
-	enum spec_status status =
-		spec_number_parse_whole(text, least, 1 << 16, what, &value, error);
-
-	if (status == SPEC_OK)
-		*pixels = (int)value;
-	return status;
-}
-
 static int
 compare_numbers(const void *a, const void *b)
 {
@@ -244,17 +232,11 @@ take_use(struct job *job, const char *text, struct spec_error *error)
 static enum spec_status
 take_extrapolate(struct job *job, const char *text, struct spec_error *error)
 {
-	static const char *const names[] = {"refuse", "zero", "constant"};
+	enum spec_status status =
+		spec_extrapolate_parse(text, 1, &job->setup.extrapolate, error);
 
-	for (int i = 0; i < 3; i++) {
-		if (strcmp(text, names[i]) == 0) {
-			job->setup.extrapolate = job->patches.extrapolate =
-				job->colours.extrapolate = (enum spec_extrapolate)i;
-			return SPEC_OK;
-		}
-	}
-	return spec_error_set(
-		error, SPEC_EUSAGE, "'%s' is not refuse, zero or constant", text);
+	job->patches.extrapolate = job->colours.extrapolate = job->setup.extrapolate;
+	return status;
 }
 
 static enum spec_status
@@ -381,12 +363,14 @@ take_picture(struct job *job, const char *name, const char *value, int *known,
 		return spec_number_parse_size(value, MOST_CURVES, "the chart",
 			&job->patches.columns, &job->patches.rows, error);
 	if (strcmp(name, "patch") == 0)
-		return take_pixels(
-			&job->patches.patch, 1, "the side of a patch", value, error);
+		return spec_number_parse_int(value, 1, MOST_PIXELS, "the side of a patch",
+			&job->patches.patch, error);
 	if (strcmp(name, "gap") == 0)
-		return take_pixels(&job->patches.gap, 0, "the gap", value, error);
+		return spec_number_parse_int(
+			value, 0, MOST_PIXELS, "the gap", &job->patches.gap, error);
 	if (strcmp(name, "strip") == 0)
-		return take_pixels(&job->strip, 1, "the height", value, error);
+		return spec_number_parse_int(
+			value, 1, MOST_PIXELS, "the height", &job->strip, error);
 	if (strcmp(name, "scaling") == 0)
 		return spec_strip_parse(value, &job->scaling, error);
 	if (strcmp(name, "from-rgb") == 0)
@@ -426,7 +410,8 @@ take(void *state, const char *name, const char *value, struct spec_error *error)
 		return spec_projection_parse(value, &job->projection, &job->height, error);
 	}
 	if (strcmp(name, "downsample") == 0)
-		return take_pixels(&job->setup.downsample, 1, "the factor", value, error);
+		return spec_number_parse_int(
+			value, 1, MOST_PIXELS, "the factor", &job->setup.downsample, error);
 	if (strcmp(name, "format") == 0)
 		return take_format(job, value, error);
 	status = take_curves(job, name, value, &known, error);

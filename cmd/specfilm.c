@@ -86,7 +86,7 @@ take_option(void *state, const char *name, const char *value, struct spec_error 
 	if (strcmp(name, "polarisation") == 0)
 		return spec_polarisation_parse(value, &job->polarisation, error);
 	if (strcmp(name, "extrapolate") == 0)
-		return spec_extrapolate_parse(value, &job->extrapolate, error);
+		return spec_extrapolate_parse(value, 0, &job->extrapolate, error);
 	if (strcmp(name, "keep") == 0)
 		job->keep = 1;
 	else if (strcmp(name, "spectrum") == 0)

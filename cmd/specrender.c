@@ -64,19 +64,6 @@ take_defer(struct job *job, const char *value, struct spec_error *error)
 }
 
 static enum spec_status
-take_whole(const char *value, long long least, long long most, const char *what, int *to,
-	struct spec_error *error)
-{
-	long long number;
-	enum spec_status status =
-		spec_number_parse_whole(value, least, most, what, &number, error);
-
-	if (status == SPEC_OK)
-		*to = (int)number;
-	return status;
-}
-
-static enum spec_status
 take_option(void *state, const char *name, const char *value, struct spec_error *error)
 {
 	struct job *job = state;
@@ -84,8 +71,8 @@ take_option(void *state, const char *name, const char *value, struct spec_error 
 	int known;
 
 	if (strcmp(name, "spp") == 0)
-		return take_whole(value, 1, MOST_SAMPLES, "the number of samples",
-			&setup->samples, error);
+		return spec_number_parse_int(value, 1, MOST_SAMPLES,
+			"the number of samples", &setup->samples, error);
 	if (strcmp(name, "size") == 0)
 		return spec_number_parse_size(value, MOST_PIXELS, "the size", &setup->width,
 			&setup->height, error);
@@ -96,13 +83,13 @@ take_option(void *state, const char *name, const char *value, struct spec_error 
 	if (strcmp(name, "defer") == 0)
 		return take_defer(job, value, error);
 	if (strcmp(name, "films") == 0)
-		return take_whole(value, 1, SPEC_RENDER_MOST_FILMS, "the number of films",
-			&job->films, error);
+		return spec_number_parse_int(value, 1, SPEC_RENDER_MOST_FILMS,
+			"the number of films", &job->films, error);
 	if (strcmp(name, "supersample") == 0)
-		return take_whole(
+		return spec_number_parse_int(
 			value, 1, MOST_FINER, "the factor", &setup->supersample, error);
 	if (strcmp(name, "extrapolate") == 0)
-		return spec_extrapolate_parse(value, &setup->extrapolate, error);
+		return spec_extrapolate_parse(value, 0, &setup->extrapolate, error);
 	if (strcmp(name, "seed") == 0) {
 		job->has_seed = 1;
 		return spec_number_parse_whole(

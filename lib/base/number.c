@@ -105,6 +105,19 @@ spec_number_parse_whole(const char *text, long long minimum, long long maximum,
 }
 
 enum spec_status
+spec_number_parse_int(const char *text, int minimum, int maximum, const char *what,
+	int *value, struct spec_error *error)
+{
+	long long number;
+	enum spec_status status =
+		spec_number_parse_whole(text, minimum, maximum, what, &number, error);
+
+	if (status == SPEC_OK)
+		*value = (int)number;
+	return status;
+}
+
+enum spec_status
 spec_number_parse_bytes(
 	const char *text, const char *what, long long *value, struct spec_error *error)
 {

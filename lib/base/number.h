@@ -18,6 +18,10 @@ enum spec_status spec_number_parse(const char *text, double minimum, double maxi
 enum spec_status spec_number_parse_whole(const char *text, long long minimum,
 	long long maximum, const char *what, long long *value, struct spec_error *error);
 
+/* The same of an int; on an error *value stays as it is. */
+enum spec_status spec_number_parse_int(const char *text, int minimum, int maximum,
+	const char *what, int *value, struct spec_error *error);
+
 /* A count of bytes with an optional suffix k, M, G or T (powers of 1024). */
 enum spec_status spec_number_parse_bytes(
 	const char *text, const char *what, long long *value, struct spec_error *error);

@@ -88,16 +88,13 @@ spec_settings_take(struct spec_settings *settings, const char *name, const char 
 	int *known, struct spec_error *error)
 {
 	enum spec_status status = SPEC_OK;
-	long long number;
 
 	*known = 1;
 	if (strcmp(name, "output") == 0) {
 		settings->output = value;
 	} else if (strcmp(name, "threads") == 0) {
-		status = spec_number_parse_whole(
-			value, 1, 256, "the number of threads", &number, error);
-		if (status == SPEC_OK)
-			settings->threads = (int)number;
+		status = spec_number_parse_int(
+			value, 1, 256, "the number of threads", &settings->threads, error);
 	} else if (strcmp(name, "part") == 0) {
 		settings->part = value;
 	} else if (strcmp(name, "name-map") == 0) {
@@ -132,7 +129,6 @@ spec_settings_crop(const char *text, struct spec_window *crop, struct spec_error
 
 	for (size_t i = 0; i < 4; i++) {
 		size_t length = strcspn(text, ",");
-		long long value;
 		enum spec_status status;
 
 		snprintf(part, sizeof part, "%.*s",
@@ -140,11 +136,10 @@ spec_settings_crop(const char *text, struct spec_window *crop, struct spec_error
 		if ((text[length] == ',') != (i < 3))
 			return spec_error_set(
 				error, SPEC_EUSAGE, "the crop is not X0,Y0,X1,Y1");
-		status = spec_number_parse_whole(
-			part, 0, 1 << 30, "the crop", &value, error);
+		status = spec_number_parse_int(
+			part, 0, 1 << 30, "the crop", corner[i], error);
 		if (status != SPEC_OK)
 			return status;
-		*corner[i] = (int)value;
 		text += length + (i < 3);
 	}
 	return SPEC_OK;

@@ -37,16 +37,21 @@ name_columns(struct spec_curve *curve, struct spec_error *error)
 }
 
 enum spec_status
-spec_extrapolate_parse(
-	const char *text, enum spec_extrapolate *extrapolate, struct spec_error *error)
+spec_extrapolate_parse(const char *text, int zero, enum spec_extrapolate *extrapolate,
+	struct spec_error *error)
 {
-	int constant = strcmp(text, "constant") == 0;
+	static const char *const names[] = {[SPEC_EXTRAPOLATE_REFUSE] = "refuse",
+		[SPEC_EXTRAPOLATE_ZERO] = "zero",
+		[SPEC_EXTRAPOLATE_CONSTANT] = "constant"};
 
-	if (!constant && strcmp(text, "refuse") != 0)
-		return spec_error_set(
-			error, SPEC_EUSAGE, "'%s' is not refuse or constant", text);
-	*extrapolate = constant ? SPEC_EXTRAPOLATE_CONSTANT : SPEC_EXTRAPOLATE_REFUSE;
-	return SPEC_OK;
+	for (int i = 0; i < 3; i++) {
+		if (strcmp(text, names[i]) == 0 && (zero || i != SPEC_EXTRAPOLATE_ZERO)) {
+			*extrapolate = (enum spec_extrapolate)i;
+			return SPEC_OK;
+		}
+	}
+	return spec_error_set(error, SPEC_EUSAGE, "'%s' is not refuse%s constant", text,
+		zero ? ", zero or" : " or");
 }
 
 enum spec_status

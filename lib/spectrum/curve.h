@@ -24,11 +24,11 @@ enum spec_extrapolate {
 };
 
 /*
- * "refuse" or "constant", for what cannot be zero, such as an index. Error (SPEC_EUSAGE):
- * another text.
+ * "refuse", "constant" or, unless zero is 0, "zero": there are things that cannot be zero, such
+ * as an index. Error (SPEC_EUSAGE): another text.
  */
-enum spec_status spec_extrapolate_parse(
-	const char *text, enum spec_extrapolate *extrapolate, struct spec_error *error);
+enum spec_status spec_extrapolate_parse(const char *text, int zero,
+	enum spec_extrapolate *extrapolate, struct spec_error *error);
 
 /*
  * A curve of count samples in so many columns, for the caller to fill in: wavelengths and
