@@ -2,38 +2,30 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 #include "base/memory.h"
 #include "base/number.h"
-#include "base/path.h"
 #include "cli/options.h"
 #include "cli/progress.h"
-#include "colour/space.h"
-#include "image/atlas.h"
-#include "image/colourcurve.h"
 #include "image/convert.h"
+#include "image/curveinput.h"
+#include "image/curveoutput.h"
 #include "image/fromrgb.h"
 #include "image/gridof.h"
 #include "image/kind.h"
 #include "image/patches.h"
-#include "image/trace.h"
 #include "image/represented.h"
 #include "image/reproject.h"
-#include "image/strip.h"
 #include "image/vectors.h"
-#include "image/writer.h"
 #include "place/own.h"
 #include "place/placed.h"
 #include "spectrum/abscissa.h"
 #include "spectrum/air.h"
 #include "spectrum/operation.h"
 #include "spectrum/reshape.h"
-#include "spectrum/spd.h"
 
-#define MOST_CURVES 4096
-#define MOST_PIXELS (1 << 16)
-#define LEAST 1e-3 /* of the most light, for --reflectance-of */
+#define MOST_FACTOR (1 << 16) /* of --downsample */
+#define LEAST 1e-3            /* of the most light, for --reflectance-of */
 
 static const struct cli_option options[] = {
 	{'g', "grid", "LO:HI:STEP|FILE|native",
@@ -120,25 +112,17 @@ struct job {
 	enum spec_abscissa abscissa;
 	struct spec_convert_setup setup;
 	int has_interpolation, has_to; /* the options were given */
-	struct spec_trace_axes axes;
-	double ink[3], paper[3];       /* encoded */
-	const char *row;               /* of an atlas, or null */
-	int from_plot, has_ink, atlas; /* the options were given */
 	struct spec_representation to;
-	struct spec_patches_setup patches;
-	int strip;                       /* its height, or 0 */
-	enum spec_strip_scaling scaling; /* of the strip */
-	struct spec_fromrgb_setup colours;
+	struct spec_curve_input from; /* where curves come from */
+	struct spec_curve_output into;
 	struct spec_placed placed;
 	const char *vectors; /* their name, or null */
 	int projects;        /* the option was given */
 	enum spec_projection projection;
 	size_t height;                /* of it, or 0 */
-	int from_rgb, as;             /* the options were given */
+	enum spec_kind kind;          /* of the output */
 	unsigned long long clamped;   /* pixels whose colour was out of range */
-	int csv;                      /* the text is comma-separated values */
 	unsigned long long overflows; /* samples that --half made infinite */
-	int text; /* the output is: 1 text, 0 an image, -1 as the input */
 	struct spec_settings settings;
 };
 
@@ -216,38 +200,14 @@ take_medium(struct job *job, enum spec_medium medium, struct spec_error *error)
 }
 
 static enum spec_status
-take_model(struct job *job, const char *text, struct spec_error *error)
-{
-	job->from_rgb = 1;
-	return spec_upsampling_find_model(text, &job->colours.model, error);
-}
-
-static enum spec_status
-take_use(struct job *job, const char *text, struct spec_error *error)
-{
-	job->as = 1;
-	return spec_upsampling_find_use(text, &job->colours.use, error);
-}
-
-static enum spec_status
 take_extrapolate(struct job *job, const char *text, struct spec_error *error)
 {
 	enum spec_status status =
 		spec_extrapolate_parse(text, 1, &job->setup.extrapolate, error);
 
-	job->patches.extrapolate = job->colours.extrapolate = job->setup.extrapolate;
+	job->into.patches.extrapolate = job->from.colours.extrapolate =
+		job->setup.extrapolate;
 	return status;
-}
-
-static enum spec_status
-take_format(struct job *job, const char *text, struct spec_error *error)
-{
-	const struct spec_writing_format *format;
-
-	job->csv = strcmp(text, "csv") == 0;
-	job->text = job->csv || strcmp(text, "spd") == 0;
-	job->settings.format = job->text ? NULL : text;
-	return job->text ? SPEC_OK : spec_writer_choose("-", text, &format, error);
 }
 
 static enum spec_status
@@ -261,46 +221,6 @@ take_input(struct job *job, const char *path, struct spec_error *error)
 	if (status == SPEC_OK)
 		job->input[job->inputs++] = path;
 	return status;
-}
-
-/* A colour, encoded as sRGB has it. */
-static enum spec_status
-take_code(double code[3], const char *text, struct spec_error *error)
-{
-	enum spec_status status =
-		spec_colour_curve_is_name(text)
-			? spec_colour_curve_parse(text, code, error)
-			: spec_error_set(error, SPEC_EUSAGE,
-				  "'%.100s' is no colour ('#ff0000', 'hsv:0,1,1')", text);
-
-	for (int i = 0; i < 3 && status == SPEC_OK; i++)
-		code[i] = spec_srgb_encode(code[i] > 1 ? 1 : code[i]);
-	return status;
-}
-
-/* What makes curves of images, or an image of curves without bands; *known 0: none of these. */
-static enum spec_status
-take_curves(struct job *job, const char *name, const char *value, int *known,
-	struct spec_error *error)
-{
-	*known = 1;
-	if (strcmp(name, "from-plot") == 0) {
-		job->from_plot = 1;
-		return spec_trace_parse(value, &job->axes, error);
-	}
-	if (strcmp(name, "ink") == 0) {
-		job->has_ink = 1;
-		return take_code(job->ink, value, error);
-	}
-	if (strcmp(name, "paper") == 0)
-		return take_code(job->paper, value, error);
-	if (strcmp(name, "atlas") == 0)
-		job->atlas = 1;
-	else if (strcmp(name, "row") == 0)
-		job->row = value;
-	else
-		*known = 0;
-	return SPEC_OK;
 }
 
 static enum spec_status
@@ -353,48 +273,21 @@ take_spectral(struct job *job, const char *name, const char *value, int *known,
 	return SPEC_OK;
 }
 
-/* What is about charts, strips and colours. */
 static enum spec_status
-take_picture(struct job *job, const char *name, const char *value, int *known,
+take_format(struct job *job, const char *text, struct spec_error *error)
+{
+	enum spec_status status = spec_kind_of_format(text, &job->kind, error);
+
+	job->settings.format = job->kind == SPEC_KIND_IMAGE ? text : NULL;
+	return status;
+}
+
+/* What is about pixels, and the output. */
+static enum spec_status
+take_image(struct job *job, const char *name, const char *value, int *known,
 	struct spec_error *error)
 {
 	*known = 1;
-	if (strcmp(name, "patches") == 0)
-		return spec_number_parse_size(value, MOST_CURVES, "the chart",
-			&job->patches.columns, &job->patches.rows, error);
-	if (strcmp(name, "patch") == 0)
-		return spec_number_parse_int(value, 1, MOST_PIXELS, "the side of a patch",
-			&job->patches.patch, error);
-	if (strcmp(name, "gap") == 0)
-		return spec_number_parse_int(
-			value, 0, MOST_PIXELS, "the gap", &job->patches.gap, error);
-	if (strcmp(name, "strip") == 0)
-		return spec_number_parse_int(
-			value, 1, MOST_PIXELS, "the height", &job->strip, error);
-	if (strcmp(name, "scaling") == 0)
-		return spec_strip_parse(value, &job->scaling, error);
-	if (strcmp(name, "from-rgb") == 0)
-		return take_model(job, value, error);
-	if (strcmp(name, "as") == 0)
-		return take_use(job, value, error);
-	*known = 0;
-	return SPEC_OK;
-}
-
-static enum spec_status
-take(void *state, const char *name, const char *value, struct spec_error *error)
-{
-	struct job *job = state;
-	enum spec_status status = SPEC_OK;
-	int known = 0;
-
-	if (!name)
-		return take_input(job, value, error);
-	status = take_spectral(job, name, value, &known, error);
-	if (!known && status == SPEC_OK)
-		status = take_picture(job, name, value, &known, error);
-	if (known || status != SPEC_OK)
-		return status;
 	if (strcmp(name, "extrapolate") == 0)
 		return take_extrapolate(job, value, error);
 	if (strcmp(name, "crop") == 0) {
@@ -411,16 +304,34 @@ take(void *state, const char *name, const char *value, struct spec_error *error)
 	}
 	if (strcmp(name, "downsample") == 0)
 		return spec_number_parse_int(
-			value, 1, MOST_PIXELS, "the factor", &job->setup.downsample, error);
+			value, 1, MOST_FACTOR, "the factor", &job->setup.downsample, error);
 	if (strcmp(name, "format") == 0)
 		return take_format(job, value, error);
-	status = take_curves(job, name, value, &known, error);
-	if (known)
-		return status;
-	status = spec_placed_take(&job->placed, name, value, &known, error);
-	if (known)
-		return status;
-	return spec_settings_take(&job->settings, name, value, &known, error);
+	*known = 0;
+	return SPEC_OK;
+}
+
+static enum spec_status
+take(void *state, const char *name, const char *value, struct spec_error *error)
+{
+	struct job *job = state;
+	enum spec_status status;
+	int known = 0;
+
+	if (!name)
+		return take_input(job, value, error);
+	status = take_spectral(job, name, value, &known, error);
+	if (!known && status == SPEC_OK)
+		status = take_image(job, name, value, &known, error);
+	if (!known && status == SPEC_OK)
+		status = spec_curve_input_take(&job->from, name, value, &known, error);
+	if (!known && status == SPEC_OK)
+		status = spec_curve_output_take(&job->into, name, value, &known, error);
+	if (!known && status == SPEC_OK)
+		status = spec_placed_take(&job->placed, name, value, &known, error);
+	if (!known && status == SPEC_OK)
+		status = spec_settings_take(&job->settings, name, value, &known, error);
+	return status;
 }
 
 /* What makes no sense together, or alone. */
@@ -443,31 +354,23 @@ check_spectral(const struct cli *cli, struct job *job)
 		cli_usage(cli, "--least is for --reflectance-of");
 	if (job->setup.least < 0)
 		job->setup.least = LEAST;
-	if (job->as && !job->from_rgb)
-		cli_usage(cli, "--as goes with --from-rgb");
 }
 
 static void
 parse(struct cli *cli, struct job *job, struct spec_error *error)
 {
 	spec_settings_init(&job->settings);
+	spec_curve_input_init(&job->from);
+	spec_curve_output_init(&job->into);
 	cli_take_each(cli, take, job);
 	if (job->inputs == 0)
 		cli_check(cli, take_input(job, "-", error), error);
 	check_spectral(cli, job);
-	if (job->from_plot != job->has_ink)
+	cli_check(cli, spec_curve_input_settle(&job->from, error), error);
+	if (job->has_to && (spec_curve_input_is_image(&job->from) || job->into.atlas ||
+				   job->into.strip > 0))
 		cli_usage(cli,
-			job->from_plot
-				? "--from-plot needs the curve's colour (--ink '#ff0000')"
-				: "--ink goes with --from-plot");
-	if (job->from_plot + job->from_rgb + (job->row != NULL) > 1)
-		cli_usage(cli, "--from-rgb, --from-plot and --row exclude each other");
-	if (job->has_to && (job->from_plot || job->row || job->atlas))
-		cli_usage(cli, "--to does not go with --from-plot, --row and --atlas");
-	if (job->atlas && (job->patches.columns > 0 || job->text > 0))
-		cli_usage(cli, "--atlas makes an image, and one without patches");
-	if (!job->as && job->colours.model == SPEC_UPSAMPLING_SUN)
-		job->colours.use = SPEC_UPSAMPLING_LIGHT;
+			"--to does not go with --from-plot, --row, --atlas and --strip");
 	if (job->grid_text && strcmp(job->grid_text, "native") == 0)
 		job->setup.rebin = 0;
 	else if (job->grid_text)
@@ -479,198 +382,94 @@ parse(struct cli *cli, struct job *job, struct spec_error *error)
 	job->setup.edges_nm = job->edges_nm;
 	job->setup.bands = job->bands.count > 0 ? &job->bands : NULL;
 	job->setup.operation = job->operation;
-	job->setup.half = job->patches.half = job->colours.half = job->settings.half;
-	job->colours.grid = job->setup.grid;
+	job->setup.half = job->into.patches.half = job->from.colours.half =
+		job->settings.half;
+	job->from.colours.grid = job->setup.grid;
 }
 
-/* Whether the output is text: as --format or the suffix says, else as the input is. */
+/* The kind of the output: as --format or the suffix says, else as the input is. */
 static enum spec_status
-settle_format(struct job *job, int input_is_text, struct spec_error *error)
+settle_kind(struct job *job, enum spec_kind input, struct spec_error *error)
 {
-	const char *output = job->settings.output, *suffix = spec_path_suffix(output);
-	const struct spec_writing_format *format;
+	enum spec_status status = SPEC_OK;
 
-	if (job->text >= 0)
-		return SPEC_OK;
-	job->text = input_is_text && job->patches.columns == 0;
-	if (strcmp(output, "-") == 0 || !*suffix)
-		return SPEC_OK;
-	job->csv = strcasecmp(suffix, ".csv") == 0;
-	if (strncmp(output, "/dev/", 5) == 0 && !spec_kind_is_text_name(output) &&
-		!spec_writer_knows_suffix(suffix))
-		return SPEC_OK; /* a device's name is not a file's */
-	job->text = spec_kind_is_text_name(output);
-	return job->text ? SPEC_OK : spec_writer_choose(output, NULL, &format, error);
-}
-
-static enum spec_status
-save_curve(const struct job *job, const struct spec_curve *curve, struct spec_error *error)
-{
-	return job->csv ? spec_spd_save_csv(job->settings.output, curve, error)
-			: spec_spd_save(job->settings.output, curve, error);
-}
-
-/* The spectrum of a colour. */
-static enum spec_status
-take_colour(const struct job *job, const char *name, struct spec_curve *curve,
-	struct spec_error *error)
-{
-	double rgb[3];
-	enum spec_status status;
-
-	if (!spec_colour_curve_is_name(name))
-		return spec_error_set(error, SPEC_EUSAGE,
-			"--from-rgb is for images and colours ('#ff8000', 'rgb:1,0.5,0', "
-			"'hsv:30,1,1'), not for the curve '%.200s'",
-			name);
-	status = spec_colour_curve_parse(name, rgb, error);
-	return status == SPEC_OK ? spec_colour_curve(rgb, &job->colours, curve, error)
-				 : status;
-}
-
-/* The curve that an image holds: drawn, or as a line of an atlas. */
-static enum spec_status
-take_from_image(const struct job *job, const char *name, struct spec_curve *curve,
-	struct spec_error *error)
-{
-	struct spec_reader *reader;
-	enum spec_status status = spec_reader_open(&reader, name, &job->settings, error);
-
-	if (status != SPEC_OK)
-		return status;
-	status = job->row ? spec_atlas_curve(reader, job->row, curve, error)
-			  : spec_trace_curve(
-				    reader, &job->axes, job->ink, job->paper, curve, error);
-	spec_reader_close(reader);
+	if (job->kind == SPEC_KIND_UNTOLD)
+		status = spec_kind_of_output(job->settings.output, &job->kind, error);
+	if (job->kind == SPEC_KIND_UNTOLD)
+		job->kind = input;
 	return status;
 }
 
-/* One curve, or that of a colour or an image, after all that is done to it. */
-static enum spec_status
-load_curve(const struct cli *cli, const struct job *job, const struct spec_reshape *reshape,
-	const char *name, struct spec_curve *curve, struct spec_error *error)
-{
-	struct spec_reshape_notes notes = {0};
-	enum spec_status status =
-		job->from_rgb ? take_colour(job, name, curve, error)
-		: job->from_plot || job->row
-			? take_from_image(job, name, curve, error)
-			: spec_reshape_curve(name, reshape, curve, &notes, error);
+/* ---- curves ---- */
 
-	if (status == SPEC_OK && (job->from_rgb || job->from_plot || job->row))
-		status = spec_reshape_loaded(name, reshape, curve, &notes, error);
-	if (status != SPEC_OK || job->settings.quiet)
-		return status;
-	if (notes.left)
-		cli_warn(cli, "%s: states no quantity: its values were left as they are",
-			name);
-	if (*notes.outside)
-		cli_warn(cli, "%s: has nothing at %s: taken %s", name, notes.outside,
-			reshape->extrapolate == SPEC_EXTRAPOLATE_CONSTANT ? "as at its end"
-									  : "for 0");
-	return status;
-}
-
-/* The patches' layout, where none was asked for: one row; on the first curve's own grid. */
-static enum spec_status
-write_chart(struct job *job, const struct spec_curve *curve, int argc, char **argv,
-	struct spec_error *error)
-{
-	struct spec_patches_setup patches = job->patches;
-	struct spec_grid own = {curve[0].wavelength_nm, curve[0].count};
-	struct spec_image image;
-	enum spec_status status;
-
-	patches.grid = job->setup.grid ? job->setup.grid : &own;
-	if (patches.columns == 0) {
-		patches.columns = (int)spec_patches_count(curve, job->inputs);
-		patches.rows = 1;
-	}
-	status = spec_patches_image(&image, curve, job->inputs, &patches, error);
-	if (status == SPEC_OK)
-		status = spec_placed_apply(&job->placed, &image, error);
-	if (status == SPEC_OK && job->settings.history)
-		status = spec_image_add_history(&image, argc, argv, error);
-	if (status == SPEC_OK)
-		status = spec_patches_write(&image, curve, job->inputs, &patches,
-			&job->settings, &job->overflows, error);
-	spec_image_clear(&image);
-	return status;
-}
-
-static enum spec_status
-check_strip(const struct job *job, struct spec_error *error)
-{
-	if (job->strip == 0)
-		return job->scaling == SPEC_STRIP_AS_IT_IS
-			       ? SPEC_OK
-			       : spec_error_set(
-					 error, SPEC_EUSAGE, "--scaling is for --strip");
-	if (job->text >= 0 || job->patches.columns > 0 || job->inputs > 1)
-		return spec_error_set(error, SPEC_EUSAGE,
-			"--strip makes a picture of one curve, by the suffix of -o");
-	return SPEC_OK;
-}
-
+/* What is for images alone, and what does not go together. */
 static enum spec_status
 check_curve_options(const struct job *job, struct spec_error *error)
 {
-	for (size_t i = 0; i < job->setup.operations; i++) {
+	const struct spec_convert_setup *setup = &job->setup;
+	const char *wrong = NULL;
+
+	for (size_t i = 0; i < setup->operations; i++)
 		if (job->operation[i].kind == SPEC_OPERATION_ILLUMINATE ||
 			job->operation[i].kind == SPEC_OPERATION_REFLECTANCE_OF)
-			return spec_error_set(error, SPEC_EUSAGE,
-				"--illuminate and --reflectance-of are for images, not for "
-				"curves (--multiply, --divide)");
-	}
-	if (job->setup.has_crop || job->setup.downsample > 1 || job->setup.bands ||
-		job->setup.bands_only || job->setup.per != SPEC_CONVERT_AS_IT_IS ||
-		job->projects || job->vectors)
-		return spec_error_set(error, SPEC_EUSAGE,
-			"--crop, --downsample, --projection, --vectors, --band, --bands-only and --per are "
-			"for images, not for curves");
-	if (job->text > 0 && (job->patches.columns > 0 || job->patches.patch > 1 ||
-				     job->patches.gap > 0))
-		return spec_error_set(error, SPEC_EUSAGE,
-			"--patches, --patch and --gap make an image, and the output is text (-o FILE.exr)");
-	if (job->text > 0 && job->inputs > 1)
-		return spec_error_set(error, SPEC_EUSAGE,
-			"one curve at a time, or an image of them (--patches, or -o "
-			"FILE.exr)");
-	if (job->text == 0 && job->has_to)
-		return spec_error_set(error, SPEC_EUSAGE,
-			"--to makes text, and the output is an image (-o FILE.spd)");
-	if (job->has_to && job->from_rgb)
-		return spec_error_set(error, SPEC_EUSAGE,
-			"--from-rgb and --to exclude each other: specconvert --from-rgb ... | "
-			"specconvert --to ...");
-	return job->inputs > MOST_CURVES ? spec_error_set(error, SPEC_ERANGE,
-						   "more than %d curves", MOST_CURVES)
-					 : SPEC_OK;
+			wrong = "--illuminate and --reflectance-of are for images, not for "
+				"curves (--multiply, --divide)";
+	if (!wrong && (setup->has_crop || setup->downsample > 1 || setup->bands ||
+			      setup->bands_only || setup->per != SPEC_CONVERT_AS_IT_IS ||
+			      job->projects || job->vectors))
+		wrong = "--crop, --downsample, --projection, --vectors, --band, --bands-only and "
+			"--per are for images, not for curves";
+	if (!wrong && job->kind == SPEC_KIND_IMAGE && job->has_to)
+		wrong = "--to makes text, and the output is an image (-o FILE.spd)";
+	if (!wrong && job->has_to && job->from.from_rgb)
+		wrong = "--from-rgb and --to exclude each other: specconvert --from-rgb "
+			"... | specconvert --to ...";
+	return wrong ? spec_error_set(error, SPEC_EUSAGE, "%s", wrong)
+		     : spec_curve_output_check(&job->into, job->kind, job->inputs, error);
 }
 
 static enum spec_status
-save_curves(struct job *job, const struct spec_curve *curve, int argc, char **argv,
-	struct spec_error *error)
+settle_curves(struct job *job, struct spec_error *error)
 {
-	if (job->strip > 0)
-		return spec_strip_save(
-			job->settings.output, curve, job->scaling, job->strip, error);
-	if (job->atlas)
-		return spec_atlas_write(curve, job->input, job->inputs, job->setup.grid,
-			job->setup.extrapolate, &job->settings, argc, argv, error);
-	return job->text ? save_curve(job, curve, error)
-			 : write_chart(job, curve, argc, argv, error);
+	int chart = job->into.atlas || job->into.patches.columns > 0;
+	enum spec_status status = SPEC_OK;
+
+	if (job->into.strip == 0)
+		status = settle_kind(job, chart ? SPEC_KIND_IMAGE : SPEC_KIND_SPD, error);
+	if (status == SPEC_OK)
+		status = check_curve_options(job, error);
+	return status == SPEC_OK ? spec_placed_check(&job->placed,
+					   job->kind != SPEC_KIND_IMAGE || job->into.atlas,
+					   &job->settings, error)
+				 : status;
 }
 
-static enum spec_status
-convert_curves(const struct cli *cli, struct job *job, int argc, char **argv,
-	struct spec_error *error)
+static void
+warn_of_curve(const struct cli *cli, const struct job *job, const char *name,
+	const struct spec_reshape_notes *notes)
 {
-	const struct spec_convert_setup *setup = &job->setup;
+	int constant = job->setup.extrapolate == SPEC_EXTRAPOLATE_CONSTANT;
+
+	if (job->settings.quiet)
+		return;
+	if (notes->left)
+		cli_warn(cli, "%s: states no quantity: its values were left as they are",
+			name);
+	if (*notes->outside)
+		cli_warn(cli, "%s: has nothing at %s: taken %s", name, notes->outside,
+			constant ? "as at its end" : "for 0");
+}
+
+/* What is done to each curve. */
+static struct spec_reshape
+plan_curves(const struct job *job)
+{
 	static const char *const quantities[SPEC_ROLE_BISPECTRAL + 1] = {
 		[SPEC_ROLE_EMISSIVE] = "radiance per nm",
 		[SPEC_ROLE_REFLECTIVE] = "reflectance"};
-	struct spec_reshape reshape = {.quantity = quantities[job->settings.read_as],
+	const struct spec_convert_setup *setup = &job->setup;
+
+	return (struct spec_reshape){.quantity = quantities[job->settings.read_as],
 		.abscissa = job->abscissa,
 		.medium = setup->medium,
 		.grid = setup->grid,
@@ -681,18 +480,17 @@ convert_curves(const struct cli *cli, struct job *job, int argc, char **argv,
 		.extrapolate = setup->extrapolate,
 		.has_interpolate = job->has_interpolation,
 		.interpolate = setup->interpolation};
-	enum spec_status status = check_strip(job, error);
+}
+
+static enum spec_status
+convert_curves(const struct cli *cli, struct job *job, int argc, char **argv,
+	struct spec_error *error)
+{
+	struct spec_reshape reshape = plan_curves(job);
+	enum spec_status status = settle_curves(job, error);
+	struct spec_image said = {0};
 	struct spec_curve *curve;
 
-	if (job->atlas)
-		job->text = 0;
-	if (status == SPEC_OK && job->strip == 0)
-		status = settle_format(job, 1, error);
-	if (status == SPEC_OK)
-		status = check_curve_options(job, error);
-	if (status == SPEC_OK)
-		status = spec_placed_check(&job->placed,
-			job->text || job->strip || job->atlas, &job->settings, error);
 	if (status == SPEC_OK && job->has_to)
 		return spec_reshape_save(
 			job->input[0], &reshape, &job->to, job->settings.output, error);
@@ -700,15 +498,29 @@ convert_curves(const struct cli *cli, struct job *job, int argc, char **argv,
 		return status;
 	curve = spec_memory_new(job->inputs, sizeof *curve, "curves", error);
 	status = curve ? SPEC_OK : SPEC_ENOMEM;
-	for (size_t i = 0; i < job->inputs && status == SPEC_OK; i++)
-		status = load_curve(cli, job, &reshape, job->input[i], &curve[i], error);
+	for (size_t i = 0; i < job->inputs && status == SPEC_OK; i++) {
+		struct spec_reshape_notes notes = {0};
+
+		status = spec_curve_input_load(&job->from, job->input[i], &reshape,
+			&job->settings, &curve[i], &notes, error);
+		if (status == SPEC_OK)
+			warn_of_curve(cli, job, job->input[i], &notes);
+	}
 	if (status == SPEC_OK)
-		status = save_curves(job, curve, argc, argv, error);
+		status = spec_placed_apply(&job->placed, &said, error);
+	job->into.attributes = &said;
+	if (status == SPEC_OK)
+		status = spec_curve_output_save(&job->into, job->kind, curve, job->input,
+			job->inputs, job->setup.grid, &job->settings, argc, argv,
+			&job->overflows, error);
 	for (size_t i = 0; curve && i < job->inputs; i++)
 		spec_curve_free(&curve[i]);
+	spec_image_clear(&said);
 	free(curve);
 	return status;
 }
+
+/* ---- images ---- */
 
 static int
 changes_image(const struct job *job)
@@ -726,13 +538,14 @@ image_to_text(struct job *job, struct spec_reader *reader, struct spec_error *er
 	struct spec_curve curve = {0};
 	enum spec_status status;
 
-	if (changes_image(job) || job->from_rgb)
+	if (changes_image(job) || job->from.from_rgb)
 		return spec_error_set(error, SPEC_EUSAGE,
 			"change the image first, then make it text: specconvert ... | "
 			"specconvert -f spd");
 	status = spec_patches_curve(reader, &curve, error);
 	if (status == SPEC_OK)
-		status = save_curve(job, &curve, error);
+		status = spec_curve_output_text(
+			job->kind, &curve, job->settings.output, error);
 	spec_curve_free(&curve);
 	return status;
 }
@@ -751,7 +564,7 @@ convert_colours(struct job *job, struct spec_reader *reader, int argc, char **ar
 		return spec_error_set(error, SPEC_EUSAGE,
 			"make the spectra first, then change the image: specconvert --from-rgb "
 			"... | specconvert ...");
-	status = spec_fromrgb_plan(&fromrgb, spec_reader_image(reader), &job->colours,
+	status = spec_fromrgb_plan(&fromrgb, spec_reader_image(reader), &job->from.colours,
 		spec_reader_name(reader), error);
 	if (status == SPEC_OK && job->settings.history)
 		status = spec_image_add_history(&fromrgb.image, argc, argv, error);
@@ -786,8 +599,8 @@ convert_layout(struct job *job, struct spec_reader *reader, int argc, char **arg
 {
 	const char *option = job->vectors ? "--vectors" : "--projection";
 
-	if (changes_image(job) || job->text || job->from_rgb || job->has_to ||
-		(job->vectors && job->projects))
+	if (changes_image(job) || spec_kind_is_text(job->kind) || job->from.from_rgb ||
+		job->has_to || (job->vectors && job->projects))
 		return spec_error_set(error, SPEC_EUSAGE,
 			"%s does nothing else on the way: specconvert ... | specconvert %s ...",
 			option, option);
@@ -822,15 +635,9 @@ warn(const struct cli *cli, const struct job *job, const struct spec_convert *co
 static enum spec_status
 check_image_options(const struct job *job, struct spec_error *error)
 {
-	const char *option = NULL;
+	const char *option = spec_curve_output_option(&job->into);
 
-	if (job->patches.columns > 0)
-		option = "--patches";
-	else if (job->atlas)
-		option = "--atlas";
-	else if (job->strip > 0 || job->scaling != SPEC_STRIP_AS_IT_IS)
-		option = "--strip";
-	else if (job->abscissa != SPEC_ABSCISSA_NM)
+	if (!option && job->abscissa != SPEC_ABSCISSA_NM)
 		option = "--input-unit";
 	if (option)
 		return spec_error_set(error, SPEC_EUSAGE,
@@ -876,21 +683,22 @@ convert_image(const struct cli *cli, struct job *job, int argc, char **argv,
 	enum spec_status status = check_image_options(job, error);
 
 	if (status == SPEC_OK)
-		status = settle_format(job, 0, error);
+		status = settle_kind(job, SPEC_KIND_IMAGE, error);
 	if (status == SPEC_OK && job->inputs > 1)
 		status = spec_reader_open_list(
 			&reader, job->input, job->inputs, &job->settings, error);
 	else if (status == SPEC_OK)
 		status = spec_reader_open(&reader, job->input[0], &job->settings, error);
 	if (status == SPEC_OK)
-		status = spec_placed_check(&job->placed, job->text, &job->settings, error);
+		status = spec_placed_check(
+			&job->placed, spec_kind_is_text(job->kind), &job->settings, error);
 	if (status == SPEC_OK)
 		status = spec_placed_apply(&job->placed, spec_reader_header(reader), error);
 	if (status == SPEC_OK && (job->projects || job->vectors))
 		status = convert_layout(job, reader, argc, argv, error);
-	else if (status == SPEC_OK && job->text)
+	else if (status == SPEC_OK && spec_kind_is_text(job->kind))
 		status = image_to_text(job, reader, error);
-	else if (status == SPEC_OK && job->from_rgb)
+	else if (status == SPEC_OK && job->from.from_rgb)
 		status = convert_colours(job, reader, argc, argv, error);
 	else if (status == SPEC_OK && leaves_bands(job))
 		status = convert_representation(job, reader, argc, argv, error);
@@ -915,10 +723,7 @@ free_job(struct job *job)
 int
 main(int argc, char **argv)
 {
-	struct job job = {.setup = {.downsample = 1, .least = -1},
-		.patches = {.patch = 1},
-		.paper = {1, 1, 1},
-		.text = -1};
+	struct job job = {.setup = {.downsample = 1, .least = -1}};
 	struct spec_error error = {0};
 	struct cli_progress progress;
 	enum spec_status status;
@@ -930,7 +735,7 @@ main(int argc, char **argv)
 	job.settings.show = cli_progress_show;
 	job.settings.show_state = &progress;
 
-	status = job.from_plot || job.row || spec_kind_is_curve(job.input[0])
+	status = spec_curve_input_is_image(&job.from) || spec_kind_is_curve(job.input[0])
 			 ? convert_curves(&cli, &job, argc, argv, &error)
 			 : convert_image(&cli, &job, argc, argv, &error);
 	cli_progress_end(&progress);
@@ -938,8 +743,9 @@ main(int argc, char **argv)
 	if (!job.settings.quiet && job.clamped > 0)
 		cli_warn(&cli, "%llu pixels had a component outside %s, which was clamped",
 			job.clamped,
-			job.colours.use == SPEC_UPSAMPLING_ALBEDO ? "[0, 1]"
-								  : "the range from 0 on");
+			job.from.colours.use == SPEC_UPSAMPLING_ALBEDO
+				? "[0, 1]"
+				: "the range from 0 on");
 	if (!job.settings.quiet)
 		cli_warn_overflows(&cli, job.settings.output, job.overflows);
 	free_job(&job);

@@ -33,3 +33,34 @@ spec_kind_is_curve(const char *path)
 		       (isprint(byte) || isspace(byte) || byte == UTF_8_MARK);
 	return access(path, F_OK) != 0 && path[0] != '/' && path[0] != '.';
 }
+
+enum spec_status
+spec_kind_of_format(const char *format, enum spec_kind *kind, struct spec_error *error)
+{
+	const struct spec_writing_format *found;
+
+	*kind = strcmp(format, "csv") == 0   ? SPEC_KIND_CSV
+		: strcmp(format, "spd") == 0 ? SPEC_KIND_SPD
+					     : SPEC_KIND_IMAGE;
+	return *kind == SPEC_KIND_IMAGE ? spec_writer_choose("-", format, &found, error)
+					: SPEC_OK;
+}
+
+enum spec_status
+spec_kind_of_output(const char *path, enum spec_kind *kind, struct spec_error *error)
+{
+	const char *suffix = spec_path_suffix(path);
+	const struct spec_writing_format *found;
+
+	*kind = SPEC_KIND_UNTOLD;
+	if (strcmp(path, "-") == 0 || !*suffix)
+		return SPEC_OK;
+	if (strncmp(path, "/dev/", 5) == 0 && !spec_kind_is_text_name(path) &&
+		!spec_writer_knows_suffix(suffix))
+		return SPEC_OK; /* a device's name is not a file's */
+	*kind = spec_path_has_suffix(path, ".csv") ? SPEC_KIND_CSV
+		: spec_kind_is_text_name(path)     ? SPEC_KIND_SPD
+						   : SPEC_KIND_IMAGE;
+	return *kind == SPEC_KIND_IMAGE ? spec_writer_choose(path, NULL, &found, error)
+					: SPEC_OK;
+}

@@ -586,6 +586,10 @@ bytes() {
   spectral a.exr
   fails_cleanly specconvert a.exr --strip 1 -o x.exr
   no_leftovers . three.spd two.spd minus.spd dark.spd a.exr
+  fails_cleanly specconvert --strip 2 --atlas cie1931 -o a.exr
+  [[ $stderr = *'--strip makes a picture of one curve'* ]] || complain "$stderr"
+  fails_cleanly specconvert --strip 2 --to fourier:3 E -o a.png
+  [[ $stderr = *'--to does not go with'*'--strip' ]] || complain "$stderr"
 }
 
 @test "a reradiation matrix of 861 channels under a light: each band is its sum" {
