@@ -8,7 +8,7 @@
 
 #define SUN_RADIUS_M 6.957e8 /* IAU 2015 resolution B3, nominal */
 #define STANDARD_HPA 1013.25 /* ISO 2533:1975 */
-#define LIGHT_TIMES 3        /* iterations: each is 1e-4 of the one before */
+#define LIGHT_TIMES 2        /* the sun's own motion, 13 m/s, makes .01" of the second */
 #define HORIZON_DEG (-.8333) /* below, nothing of the disc is seen, and R means nothing */
 
 struct spec_air

@@ -5,18 +5,19 @@
 
 FUZZCC = clang
 FUZZ_SECONDS = 600
-FUZZERS = reader formats spd names recipe expression scene
+FUZZERS = reader formats spd names recipe expression scene place
 # clang 14 does not know the name of F16C.
 FUZZFLAGS = -std=c11 -g -O1 -Wall -Wextra -fno-omit-frame-pointer -pthread \
 	-fsanitize=address,undefined -fno-sanitize-recover=all \
 	'-D__builtin_cpu_supports(name)=1'
-FUZZSHARE_reader = 45
+FUZZSHARE_reader = 43
 FUZZSHARE_formats = 20
 FUZZSHARE_spd = 10
 FUZZSHARE_names = 5
 FUZZSHARE_recipe = 5
 FUZZSHARE_expression = 5
 FUZZSHARE_scene = 10
+FUZZSHARE_place = 2
 
 FUZZOBJECTS = $(LIBSOURCES:%.c=$(BUILD)/fuzz/obj/%.o)
 FUZZPROGRAMS = $(FUZZERS:%=$(BUILD)/fuzz/fuzz-%)

@@ -127,7 +127,8 @@ air_is_the_standard(void **state)
 	static const struct {
 		double altitude_m, pressure_hpa, temperature_c;
 	} levels[] = {{0, 1013.25, 15}, {1000, 898.746, 8.5}, {2000, 794.952, 2},
-		{5000, 540.199, -17.5}, {11000, 226.320, -56.5}, {20000, 54.7487, -56.5}};
+		{5000, 540.199, -17.5}, {11000, 226.320, -56.5}, {12000, 193.304, -56.5},
+		{20000, 54.7487, -56.5}};
 
 	(void)state;
 	for (size_t i = 0; i < COUNT(levels); i++) {
@@ -153,6 +154,8 @@ light_is_bent_and_dimmed(void **state)
 		"near the horizon");
 	near(spec_air_refraction(&air, 33.246 / 60) * 60, 24.618, .001, "Meeus");
 	near(spec_air_refraction(&air, 45) * 60, 1.0130, .005, "45 degrees");
+	/* 10.3 / 4.61 - .5 is 1.7343 degrees, of which the tangent is .030279. */
+	near(spec_air_refraction(&air, -.5) * 60, 1.02 / .030279, .01, "half set");
 	near(spec_air_refraction(&air, -1), 0, 0, "below the horizon");
 	near(spec_air_mass(0), .9997, 1e-4, "zenith");
 	near(spec_air_mass(60), 1.994, 1e-3, "60 degrees");
