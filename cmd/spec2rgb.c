@@ -339,9 +339,8 @@ parse(struct cli *cli, struct job *job)
 
 /* What a picture's 1 is stays known where nothing else changes the light. */
 static enum spec_status
-tell(struct job *job, const char *name, const struct spec_image *image,
-	const struct spec_rgb_setup *setup, const struct spec_rgb *rgb,
-	struct spec_error *error)
+tell(struct job *job, const struct spec_image *image, const struct spec_rgb_setup *setup,
+	const struct spec_rgb *rgb, struct spec_error *error)
 {
 	double luminance = spec_account_luminance(setup, rgb);
 	enum spec_status status =
@@ -350,8 +349,6 @@ tell(struct job *job, const char *name, const struct spec_image *image,
 	if (isfinite(luminance) && job->look.metering == SPEC_METERING_NONE &&
 		job->look.gamut != SPEC_GAMUT_SCALE && !job->look.tone.kind)
 		job->luminance = luminance;
-	if (status == SPEC_OK)
-		fprintf(stderr, "%s: %s: %s\n", program.name, name, job->account);
 	return status;
 }
 
@@ -384,7 +381,7 @@ plan(struct job *job, const struct spec_reader *reader, const struct spec_image 
 			spec_error_prefix(error, "%s", name);
 	}
 	if (status == SPEC_OK && job->verbose && space == &job->space)
-		status = tell(job, name, image, &setup, rgb, error);
+		status = tell(job, image, &setup, rgb, error);
 	spec_curve_free(&observer);
 	spec_curve_free(&illuminant);
 	spec_curve_free(&light);
@@ -622,6 +619,8 @@ show_colours(struct cli *cli, struct job *job, struct spec_reader *reader,
 		cli_warn(cli, "%s: %.1f %% of the luminance lies outside its bands", name,
 			100 * rgb.outside);
 	warn_nonfinite(cli, job, name, seen.nonfinite, seen.first_x, seen.first_y);
+	if (job->account)
+		fprintf(stderr, "%s: %s: %s\n", program.name, name, job->account);
 	if (job->error)
 		print_error(&report);
 	spec_rgb_free(&rgb);

@@ -994,6 +994,16 @@ close() {
   close 1e-6 "$(awk 'BEGIN { printf "%.9f", (10 * .9949501 + 10 * .995) / 106.8569 }')" "$y"
 }
 
+@test "--rule grid: what is reradiated is relative to the same sum" {
+  spectral b.exr --channel T.400nm --channel T.500nm --channel T.600nm --channel T.400nm.500nm --pattern constant:1
+  # y and D65 at 400, 500, 600 nm: .000396 .323 .631, 82.7549 109.354 90.0062; by 50, 100, 50 nm.
+  close 2e-5 "$(awk 'BEGIN {
+    all = 50 * .000396 * 82.7549 + 100 * .323 * 109.354 + 50 * .631 * 90.0062
+    printf "%.7f", 1 + 100 * .323 * 82.7549 / all }')" "$(xyz b.exr -q --rule grid | cut -d ' ' -f 2)"
+  fails_cleanly spec2rgb --rule astm b.exr -o x.png
+  [[ $stderr = *'b.exr: the weights of ASTM E308 are not for bispectral images' ]]
+}
+
 @test "--absolute: candelas per square metre, by the efficacy of each observer" {
   spectral light.exr --grid 360:830:1 --pattern constant:1
   # 683 lm/W times 106.8569 nm; the spectrum of equal energy has nearly X = Y = Z.
