@@ -20,6 +20,7 @@
 #include "image/regions.h"
 #include "image/value.h"
 #include "place/almanac.h"
+#include "place/placed.h"
 #include "spectrum/lookup.h"
 #include "spectrum/spd.h"
 #include "spectrum/summary.h"
@@ -379,6 +380,8 @@ tell_image(struct job *job, const char *path, struct spec_error *error)
 			spec_describe_json(&job->writer, &describe);
 		else
 			spec_describe_print(job->text.stream, &describe);
+		if (!job->json)
+			spec_placed_print(job->text.stream, spec_reader_image(reader));
 	}
 	spec_describe_free(&describe);
 	free(statistics);

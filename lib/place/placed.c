@@ -132,6 +132,24 @@ spec_placed_of_image(const struct spec_image *image, const char *name,
 	return status == SPEC_OK ? take_instant(image, name, instant, error) : status;
 }
 
+void
+spec_placed_print(FILE *stream, const struct spec_image *image)
+{
+	struct spec_place place;
+	struct spec_instant instant;
+	char time[SPEC_INSTANT_WRITTEN];
+
+	if (spec_placed_of_image(image, "", &place, &instant, NULL) != SPEC_OK)
+		return;
+	spec_instant_format(&instant, 0, time);
+	fprintf(stream, "  %-13s %s at %.7g %s %.7g %s", "taken", time,
+		fabs(place.latitude_deg), place.latitude_deg < 0 ? "S" : "N",
+		fabs(place.longitude_deg), place.longitude_deg < 0 ? "W" : "E");
+	if (spec_image_attribute(image, "altitude"))
+		fprintf(stream, ", %.6g m", place.altitude_m);
+	fputc('\n', stream);
+}
+
 enum spec_status
 spec_placed_of_file(const char *path, struct spec_place *place,
 	struct spec_instant *instant, struct spec_error *error)

@@ -7,6 +7,8 @@
 #ifndef SPEC_PLACE_PLACED_H
 #define SPEC_PLACE_PLACED_H
 
+#include <stdio.h>
+
 #include "base/error.h"
 #include "image/image.h"
 #include "image/settings.h"
@@ -20,6 +22,9 @@
  */
 enum spec_status spec_placed_of_image(const struct spec_image *image, const char *name,
 	struct spec_place *place, struct spec_instant *instant, struct spec_error *error);
+
+/* A line of it for people, as spec_describe_print has them; none where it is not said. */
+void spec_placed_print(FILE *stream, const struct spec_image *image);
 
 /* Those of the header of a file, or of standard input where path is "-". */
 enum spec_status spec_placed_of_file(const char *path, struct spec_place *place,

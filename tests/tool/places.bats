@@ -159,6 +159,7 @@ trouble() {
   grep -q '^capDate (type string): "2003:10:17 12:30:30"$' header
   grep -q '^utcOffset (type float): 25200$' header
   specinfo --check b.exr
+  [ "$(specinfo b.exr | tail -n 1)" = '  taken         2003-10-17T12:30:30-07:00 at 39.74248 N 105.1786 W, 1830.14 m' ]
   # Samples stay; a place alone is told, too, and of charts and other representations.
   cmp <(specconvert -f spd a.exr) <(specconvert -f spd b.exr)
   specconvert --place '10N 20E' b.exr -o c.exr
@@ -166,6 +167,8 @@ trouble() {
   grep -q '^longitude (type float): 20$' header
   grep -q '^capDate (type string): "2003:10:17 12:30:30"$' header
   run ! grep -q ^altitude header
+  [ "$(specinfo c.exr | tail -n 1)" = '  taken         2003-10-17T12:30:30-07:00 at 10 N 20 E' ]
+  run ! grep -q taken <(specinfo a.exr)
   specconvert --place "$golden" --patches 1x1 D65 -o d.exr
   exrheader d.exr | grep -q '^longitude (type float): -105.179$'
   specconvert --place "$golden" --to fourier:5 a.exr -o e.exr

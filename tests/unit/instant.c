@@ -66,10 +66,24 @@ instants_are_written(void **state)
 	instant = instant_of("2003-12-31T23:59:59.6-07:00");
 	writes(&instant, 0, "2004-01-01T00:00:00-07:00");
 	writes(&instant, 2, "2003-12-31T23:59:59.60-07:00");
-	/* What a file may say, and ISO 8601 cannot: local mean time of Amsterdam. */
-	instant = instant_of("1930-06-01T12:00:00Z");
+	instant = instant_of("2000-366T12:00Z");
+	writes(&instant, 0, "2000-12-31T12:00:00Z");
+}
+
+/* What a file may say, and ISO 8601 cannot: local mean time of Amsterdam. */
+static void
+zones_have_seconds(void **state)
+{
+	static const struct spec_reading reading = {1930, 6, 1, 0, 10, 0, 19 * 60 + 32};
+	struct spec_instant instant = instant_of("1930-06-01T12:00:00Z");
+
+	(void)state;
 	instant.offset_s = 19 * 60 + 32;
 	writes(&instant, 0, "1930-06-01T12:19:32+00:19:32");
+	assert_int_equal(spec_instant_from_reading(&reading, &instant, NULL), SPEC_OK);
+	writes(&instant, 0, "1930-06-01T00:10:00+00:19:32");
+	instant.offset_s = 0;
+	writes(&instant, 0, "1930-05-31T23:50:28Z");
 }
 
 static void
@@ -113,6 +127,7 @@ nonsense_is_refused(void **state)
 		{"2003-13-17T12:30:30Z", "the calendar has no such day"},
 		{"2003-00-17T12:30:30Z", "the calendar has no such day"},
 		{"2003-02-29T12:30:30Z", "the calendar has no such day"},
+		{"1900-366T12:30:30Z", "the calendar has no such day"},
 		{"2003-366T12:30:30Z", "the calendar has no such day"},
 		{"2003-000T12:30:30Z", "the calendar has no such day"},
 		{"2003-10-17T24:30:30Z", "the clock does not read such a time"},
@@ -189,6 +204,7 @@ main(void)
 	const struct CMUnitTest tests[] = {
 		cmocka_unit_test(one_instant_in_every_spelling),
 		cmocka_unit_test(instants_are_written),
+		cmocka_unit_test(zones_have_seconds),
 		cmocka_unit_test(days_are_counted_where_the_clock_is),
 		cmocka_unit_test(nonsense_is_refused),
 		cmocka_unit_test(leap_seconds_are_counted),

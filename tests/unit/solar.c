@@ -295,6 +295,8 @@ poles_have_days_and_nights_of_their_own(void **state)
 		day_of(&cape, "2026-12-20T12:00:00+01:00").kind, SPEC_DAY_POLAR_NIGHT);
 	assert_int_equal(day_of(&pole, "2026-12-20T12:00:00Z").kind, SPEC_DAY_POLAR_DAY);
 	assert_int_equal(day_of(&pole, "2026-06-20T12:00:00Z").kind, SPEC_DAY_POLAR_NIGHT);
+	/* All day with its middle below the horizon, and its edge above it. */
+	assert_int_equal(day_of(&pole, "2026-03-21T18:00:00Z").kind, SPEC_DAY_POLAR_DAY);
 }
 
 /* One meridian with two names, and dates: the sun is the same at the same instant. */
