@@ -4,14 +4,13 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "base/number.h"
 #include "cli/options.h"
 #include "cli/progress.h"
 #include "image/convert.h"
+#include "image/convertoptions.h"
 #include "image/curveinput.h"
 #include "image/curveoutput.h"
 #include "image/fromrgb.h"
-#include "image/gridof.h"
 #include "image/kind.h"
 #include "image/patches.h"
 #include "image/represented.h"
@@ -19,13 +18,7 @@
 #include "image/vectors.h"
 #include "place/own.h"
 #include "place/placed.h"
-#include "spectrum/abscissa.h"
-#include "spectrum/air.h"
-#include "spectrum/operation.h"
 #include "spectrum/reshape.h"
-
-#define MOST_FACTOR (1 << 16) /* of --downsample */
-#define LEAST 1e-3            /* of the most light, for --reflectance-of */
 
 static const struct cli_option options[] = {
 	{'g', "grid", "LO:HI:STEP|FILE|native",
@@ -104,15 +97,8 @@ static const struct cli_program program = {
 struct job {
 	const char **input;
 	size_t inputs;
-	const char *grid_text; /* of --grid, or null */
-	struct spec_grid grid, bands;
-	double *edges_nm; /* of the grid, where its file tells them */
-	struct spec_operation *operation;
-	size_t input_room, operation_room, band_room;
-	enum spec_abscissa abscissa;
-	struct spec_convert_setup setup;
-	int has_interpolation, has_to; /* the options were given */
-	struct spec_representation to;
+	size_t input_room;
+	struct spec_convert_options change;
 	struct spec_curve_input from; /* where curves come from */
 	struct spec_curve_output into;
 	struct spec_placed placed;
@@ -125,90 +111,6 @@ struct job {
 	unsigned long long overflows; /* samples that --half made infinite */
 	struct spec_settings settings;
 };
-
-static int
-compare_numbers(const void *a, const void *b)
-{
-	const double *one = a, *two = b;
-
-	return (*one > *two) - (*one < *two);
-}
-
-static enum spec_status
-take_band(struct job *job, const char *text, struct spec_error *error)
-{
-	void *list = job->bands.wavelength_nm;
-	double wavelength_nm;
-	enum spec_status status =
-		spec_number_parse_length(text, "the band", &wavelength_nm, error);
-
-	if (status == SPEC_OK)
-		status = spec_memory_grow(&list, &job->band_room, job->bands.count + 1,
-			sizeof(double), "bands", error);
-	job->bands.wavelength_nm = list;
-	if (status != SPEC_OK)
-		return status;
-	for (size_t i = 0; i < job->bands.count; i++) {
-		if (job->bands.wavelength_nm[i] == wavelength_nm)
-			return SPEC_OK;
-	}
-	job->bands.wavelength_nm[job->bands.count++] = wavelength_nm;
-	qsort(list, job->bands.count, sizeof(double), compare_numbers);
-	return SPEC_OK;
-}
-
-static enum spec_status
-take_operation(struct job *job, const char *name, const char *text, int *known,
-	struct spec_error *error)
-{
-	void *list = job->operation;
-	enum spec_status status = spec_memory_grow(&list, &job->operation_room,
-		job->setup.operations + 1, sizeof *job->operation, "operations", error);
-
-	*known = 1;
-	job->operation = list;
-	if (status == SPEC_OK && text && spec_own_light_is_named(text) &&
-		spec_operation_defer(name, text, &job->operation[job->setup.operations])) {
-		job->setup.operations++;
-		return SPEC_OK;
-	}
-	if (status == SPEC_OK)
-		status = spec_operation_parse(
-			name, text, &job->operation[job->setup.operations], known, error);
-	if (status == SPEC_OK && *known)
-		job->setup.operations++;
-	return status;
-}
-
-static enum spec_status
-take_per(struct job *job, const char *text, struct spec_error *error)
-{
-	if (strcmp(text, "nm") != 0 && strcmp(text, "band") != 0)
-		return spec_error_set(error, SPEC_EUSAGE, "'%s' is not nm or band", text);
-	job->setup.per = *text == 'n' ? SPEC_CONVERT_PER_NM : SPEC_CONVERT_PER_BAND;
-	return SPEC_OK;
-}
-
-static enum spec_status
-take_medium(struct job *job, enum spec_medium medium, struct spec_error *error)
-{
-	if (job->setup.medium != SPEC_MEDIUM_UNKNOWN && job->setup.medium != medium)
-		return spec_error_set(
-			error, SPEC_EUSAGE, "--to-air and --to-vacuum exclude each other");
-	job->setup.medium = medium;
-	return SPEC_OK;
-}
-
-static enum spec_status
-take_extrapolate(struct job *job, const char *text, struct spec_error *error)
-{
-	enum spec_status status =
-		spec_extrapolate_parse(text, 1, &job->setup.extrapolate, error);
-
-	job->into.patches.extrapolate = job->from.colours.extrapolate =
-		job->setup.extrapolate;
-	return status;
-}
 
 static enum spec_status
 take_input(struct job *job, const char *path, struct spec_error *error)
@@ -224,56 +126,6 @@ take_input(struct job *job, const char *path, struct spec_error *error)
 }
 
 static enum spec_status
-take_rule(struct job *job, const char *text, struct spec_error *error)
-{
-	job->has_interpolation = 1;
-	return spec_interpolate_parse(text, &job->setup.interpolation, error);
-}
-
-static enum spec_status
-take_representation(struct job *job, const char *text, struct spec_error *error)
-{
-	job->has_to = 1;
-	return spec_representation_parse(text, &job->to, error);
-}
-
-/* What is about bands and values. */
-static enum spec_status
-take_spectral(struct job *job, const char *name, const char *value, int *known,
-	struct spec_error *error)
-{
-	struct spec_convert_setup *setup = &job->setup;
-
-	*known = 1;
-	if (strcmp(name, "grid") == 0)
-		job->grid_text = value;
-	else if (strcmp(name, "interp") == 0)
-		return take_rule(job, value, error);
-	else if (strcmp(name, "to") == 0)
-		return take_representation(job, value, error);
-	else if (strcmp(name, "rebin") == 0)
-		setup->rebin = 1;
-	else if (strcmp(name, "band") == 0)
-		return take_band(job, value, error);
-	else if (strcmp(name, "bands-only") == 0)
-		setup->bands_only = 1;
-	else if (strcmp(name, "per") == 0)
-		return take_per(job, value, error);
-	else if (strcmp(name, "to-air") == 0)
-		return take_medium(job, SPEC_MEDIUM_AIR, error);
-	else if (strcmp(name, "to-vacuum") == 0)
-		return take_medium(job, SPEC_MEDIUM_VACUUM, error);
-	else if (strcmp(name, "input-unit") == 0)
-		return spec_abscissa_parse(value, &job->abscissa, error);
-	else if (strcmp(name, "least") == 0)
-		return spec_number_parse(
-			value, 0, 1, "the least light", &setup->least, error);
-	else
-		return take_operation(job, name, value, known, error);
-	return SPEC_OK;
-}
-
-static enum spec_status
 take_format(struct job *job, const char *text, struct spec_error *error)
 {
 	enum spec_status status = spec_kind_of_format(text, &job->kind, error);
@@ -282,18 +134,12 @@ take_format(struct job *job, const char *text, struct spec_error *error)
 	return status;
 }
 
-/* What is about pixels, and the output. */
+/* What is about the layout of pixels, and the output. */
 static enum spec_status
 take_image(struct job *job, const char *name, const char *value, int *known,
 	struct spec_error *error)
 {
 	*known = 1;
-	if (strcmp(name, "extrapolate") == 0)
-		return take_extrapolate(job, value, error);
-	if (strcmp(name, "crop") == 0) {
-		job->setup.has_crop = 1;
-		return spec_settings_crop(value, &job->setup.crop, error);
-	}
 	if (strcmp(name, "vectors") == 0) {
 		job->vectors = value;
 		return SPEC_OK;
@@ -302,9 +148,6 @@ take_image(struct job *job, const char *name, const char *value, int *known,
 		job->projects = 1;
 		return spec_projection_parse(value, &job->projection, &job->height, error);
 	}
-	if (strcmp(name, "downsample") == 0)
-		return spec_number_parse_int(
-			value, 1, MOST_FACTOR, "the factor", &job->setup.downsample, error);
 	if (strcmp(name, "format") == 0)
 		return take_format(job, value, error);
 	*known = 0;
@@ -320,9 +163,13 @@ take(void *state, const char *name, const char *value, struct spec_error *error)
 
 	if (!name)
 		return take_input(job, value, error);
-	status = take_spectral(job, name, value, &known, error);
+	status = take_image(job, name, value, &known, error);
+	if (!known && status == SPEC_OK && value && spec_own_light_is_named(value))
+		status = spec_convert_options_defer(
+			&job->change, name, value, &known, error);
 	if (!known && status == SPEC_OK)
-		status = take_image(job, name, value, &known, error);
+		status =
+			spec_convert_options_take(&job->change, name, value, &known, error);
 	if (!known && status == SPEC_OK)
 		status = spec_curve_input_take(&job->from, name, value, &known, error);
 	if (!known && status == SPEC_OK)
@@ -334,57 +181,27 @@ take(void *state, const char *name, const char *value, struct spec_error *error)
 	return status;
 }
 
-/* What makes no sense together, or alone. */
-static void
-check_spectral(const struct cli *cli, struct job *job)
-{
-	int divides = 0;
-
-	for (size_t i = 0; i < job->setup.operations; i++)
-		divides |= job->operation[i].kind == SPEC_OPERATION_REFLECTANCE_OF;
-	if (job->grid_text && job->bands.count > 0)
-		cli_usage(cli, "--grid and --band exclude each other");
-	if (job->setup.rebin && !job->grid_text)
-		cli_usage(cli, "--rebin needs the bins of a --grid");
-	if (job->grid_text && job->has_to)
-		cli_usage(cli, "--grid and --to exclude each other");
-	if (job->has_interpolation && job->setup.rebin)
-		cli_usage(cli, "--rebin and --interp exclude each other");
-	if (job->setup.least >= 0 && !divides)
-		cli_usage(cli, "--least is for --reflectance-of");
-	if (job->setup.least < 0)
-		job->setup.least = LEAST;
-}
-
 static void
 parse(struct cli *cli, struct job *job, struct spec_error *error)
 {
 	spec_settings_init(&job->settings);
+	spec_convert_options_init(&job->change);
 	spec_curve_input_init(&job->from);
 	spec_curve_output_init(&job->into);
 	cli_take_each(cli, take, job);
 	if (job->inputs == 0)
 		cli_check(cli, take_input(job, "-", error), error);
-	check_spectral(cli, job);
+	cli_check(cli, spec_convert_options_settle(&job->change, &job->settings, error),
+		error);
 	cli_check(cli, spec_curve_input_settle(&job->from, error), error);
-	if (job->has_to && (spec_curve_input_is_image(&job->from) || job->into.atlas ||
-				   job->into.strip > 0))
+	if (job->change.has_to && (spec_curve_input_is_image(&job->from) ||
+					  job->into.atlas || job->into.strip > 0))
 		cli_usage(cli,
 			"--to does not go with --from-plot, --row, --atlas and --strip");
-	if (job->grid_text && strcmp(job->grid_text, "native") == 0)
-		job->setup.rebin = 0;
-	else if (job->grid_text)
-		cli_check(cli,
-			spec_grid_of(job->grid_text, &job->settings, &job->grid,
-				&job->edges_nm, error),
-			error);
-	job->setup.grid = job->grid.count > 0 ? &job->grid : NULL;
-	job->setup.edges_nm = job->edges_nm;
-	job->setup.bands = job->bands.count > 0 ? &job->bands : NULL;
-	job->setup.operation = job->operation;
-	job->setup.half = job->into.patches.half = job->from.colours.half =
-		job->settings.half;
-	job->from.colours.grid = job->setup.grid;
+	job->into.patches.half = job->from.colours.half = job->settings.half;
+	job->into.patches.extrapolate = job->from.colours.extrapolate =
+		job->change.setup.extrapolate;
+	job->from.colours.grid = job->change.setup.grid;
 }
 
 /* The kind of the output: as --format or the suffix says, else as the input is. */
@@ -406,12 +223,12 @@ settle_kind(struct job *job, enum spec_kind input, struct spec_error *error)
 static enum spec_status
 check_curve_options(const struct job *job, struct spec_error *error)
 {
-	const struct spec_convert_setup *setup = &job->setup;
+	const struct spec_convert_setup *setup = &job->change.setup;
 	const char *wrong = NULL;
 
 	for (size_t i = 0; i < setup->operations; i++)
-		if (job->operation[i].kind == SPEC_OPERATION_ILLUMINATE ||
-			job->operation[i].kind == SPEC_OPERATION_REFLECTANCE_OF)
+		if (job->change.operation[i].kind == SPEC_OPERATION_ILLUMINATE ||
+			job->change.operation[i].kind == SPEC_OPERATION_REFLECTANCE_OF)
 			wrong = "--illuminate and --reflectance-of are for images, not for "
 				"curves (--multiply, --divide)";
 	if (!wrong && (setup->has_crop || setup->downsample > 1 || setup->bands ||
@@ -419,9 +236,9 @@ check_curve_options(const struct job *job, struct spec_error *error)
 			      job->projects || job->vectors))
 		wrong = "--crop, --downsample, --projection, --vectors, --band, --bands-only and "
 			"--per are for images, not for curves";
-	if (!wrong && job->kind == SPEC_KIND_IMAGE && job->has_to)
+	if (!wrong && job->kind == SPEC_KIND_IMAGE && job->change.has_to)
 		wrong = "--to makes text, and the output is an image (-o FILE.spd)";
-	if (!wrong && job->has_to && job->from.from_rgb)
+	if (!wrong && job->change.has_to && job->from.from_rgb)
 		wrong = "--from-rgb and --to exclude each other: specconvert --from-rgb "
 			"... | specconvert --to ...";
 	return wrong ? spec_error_set(error, SPEC_EUSAGE, "%s", wrong)
@@ -448,7 +265,7 @@ static void
 warn_of_curve(const struct cli *cli, const struct job *job, const char *name,
 	const struct spec_reshape_notes *notes)
 {
-	int constant = job->setup.extrapolate == SPEC_EXTRAPOLATE_CONSTANT;
+	int constant = job->change.setup.extrapolate == SPEC_EXTRAPOLATE_CONSTANT;
 
 	if (job->settings.quiet)
 		return;
@@ -467,10 +284,10 @@ plan_curves(const struct job *job)
 	static const char *const quantities[SPEC_ROLE_BISPECTRAL + 1] = {
 		[SPEC_ROLE_EMISSIVE] = "radiance per nm",
 		[SPEC_ROLE_REFLECTIVE] = "reflectance"};
-	const struct spec_convert_setup *setup = &job->setup;
+	const struct spec_convert_setup *setup = &job->change.setup;
 
 	return (struct spec_reshape){.quantity = quantities[job->settings.read_as],
-		.abscissa = job->abscissa,
+		.abscissa = job->change.abscissa,
 		.medium = setup->medium,
 		.grid = setup->grid,
 		.rebin = setup->rebin,
@@ -478,7 +295,7 @@ plan_curves(const struct job *job)
 		.operation = setup->operation,
 		.operations = setup->operations,
 		.extrapolate = setup->extrapolate,
-		.has_interpolate = job->has_interpolation,
+		.has_interpolate = job->change.has_interpolation,
 		.interpolate = setup->interpolation};
 }
 
@@ -491,9 +308,9 @@ convert_curves(const struct cli *cli, struct job *job, int argc, char **argv,
 	struct spec_image said = {0};
 	struct spec_curve *curve;
 
-	if (status == SPEC_OK && job->has_to)
-		return spec_reshape_save(
-			job->input[0], &reshape, &job->to, job->settings.output, error);
+	if (status == SPEC_OK && job->change.has_to)
+		return spec_reshape_save(job->input[0], &reshape, &job->change.to,
+			job->settings.output, error);
 	if (status != SPEC_OK)
 		return status;
 	curve = spec_memory_new(job->inputs, sizeof *curve, "curves", error);
@@ -511,7 +328,7 @@ convert_curves(const struct cli *cli, struct job *job, int argc, char **argv,
 	job->into.attributes = &said;
 	if (status == SPEC_OK)
 		status = spec_curve_output_save(&job->into, job->kind, curve, job->input,
-			job->inputs, job->setup.grid, &job->settings, argc, argv,
+			job->inputs, job->change.setup.grid, &job->settings, argc, argv,
 			&job->overflows, error);
 	for (size_t i = 0; curve && i < job->inputs; i++)
 		spec_curve_free(&curve[i]);
@@ -522,23 +339,13 @@ convert_curves(const struct cli *cli, struct job *job, int argc, char **argv,
 
 /* ---- images ---- */
 
-static int
-changes_image(const struct job *job)
-{
-	const struct spec_convert_setup *setup = &job->setup;
-
-	return setup->grid || setup->bands || setup->bands_only || setup->operations > 0 ||
-	       setup->has_crop || setup->downsample > 1 ||
-	       setup->per != SPEC_CONVERT_AS_IT_IS || setup->medium != SPEC_MEDIUM_UNKNOWN;
-}
-
 static enum spec_status
 image_to_text(struct job *job, struct spec_reader *reader, struct spec_error *error)
 {
 	struct spec_curve curve = {0};
 	enum spec_status status;
 
-	if (changes_image(job) || job->from.from_rgb)
+	if (spec_convert_options_change(&job->change) || job->from.from_rgb)
 		return spec_error_set(error, SPEC_EUSAGE,
 			"change the image first, then make it text: specconvert ... | "
 			"specconvert -f spd");
@@ -555,12 +362,12 @@ static enum spec_status
 convert_colours(struct job *job, struct spec_reader *reader, int argc, char **argv,
 	struct spec_error *error)
 {
-	struct job without = *job;
+	struct spec_convert_options without = job->change;
 	struct spec_fromrgb fromrgb;
 	enum spec_status status;
 
 	without.setup.grid = NULL;
-	if (changes_image(&without))
+	if (spec_convert_options_change(&without))
 		return spec_error_set(error, SPEC_EUSAGE,
 			"make the spectra first, then change the image: specconvert --from-rgb "
 			"... | specconvert ...");
@@ -581,15 +388,15 @@ static enum spec_status
 convert_representation(struct job *job, struct spec_reader *reader, int argc, char **argv,
 	struct spec_error *error)
 {
-	if (changes_image(job))
+	if (spec_convert_options_change(&job->change))
 		return spec_error_set(error, SPEC_EUSAGE,
 			"change the image first, then its representation: specconvert ... | "
 			"specconvert --to ...");
 	if (job->settings.format && strcmp(job->settings.format, "exr") != 0)
 		return spec_error_set(error, SPEC_EUSAGE,
 			"only OpenEXR files hold other representations than bands");
-	return spec_represented_run(
-		reader, &job->to, &job->settings, argc, argv, &job->overflows, error);
+	return spec_represented_run(reader, &job->change.to, &job->settings, argc, argv,
+		&job->overflows, error);
 }
 
 /* What is all around is laid out anew, or a picture's codes are vectors. */
@@ -599,8 +406,8 @@ convert_layout(struct job *job, struct spec_reader *reader, int argc, char **arg
 {
 	const char *option = job->vectors ? "--vectors" : "--projection";
 
-	if (changes_image(job) || spec_kind_is_text(job->kind) || job->from.from_rgb ||
-		job->has_to || (job->vectors && job->projects))
+	if (spec_convert_options_change(&job->change) || spec_kind_is_text(job->kind) ||
+		job->from.from_rgb || job->change.has_to || (job->vectors && job->projects))
 		return spec_error_set(error, SPEC_EUSAGE,
 			"%s does nothing else on the way: specconvert ... | specconvert %s ...",
 			option, option);
@@ -615,8 +422,9 @@ convert_layout(struct job *job, struct spec_reader *reader, int argc, char **arg
 static int
 leaves_bands(const struct job *job)
 {
-	return job->has_to && (job->to.kind == SPEC_SPECTRUM_FOURIER ||
-				      job->to.kind == SPEC_SPECTRUM_COMPOSITE);
+	return job->change.has_to &&
+	       (job->change.to.kind == SPEC_SPECTRUM_FOURIER ||
+		       job->change.to.kind == SPEC_SPECTRUM_COMPOSITE);
 }
 
 static void
@@ -637,15 +445,16 @@ check_image_options(const struct job *job, struct spec_error *error)
 {
 	const char *option = spec_curve_output_option(&job->into);
 
-	if (!option && job->abscissa != SPEC_ABSCISSA_NM)
+	if (!option && job->change.abscissa != SPEC_ABSCISSA_NM)
 		option = "--input-unit";
 	if (option)
 		return spec_error_set(error, SPEC_EUSAGE,
 			"%s is for curves, '%s' is an image", option, job->input[0]);
-	if (job->has_interpolation && !job->grid_text)
+	if (job->change.has_interpolation && !job->change.grid_text)
 		return spec_error_set(
 			error, SPEC_EUSAGE, "of an image, --interp is for --grid");
-	if (job->has_to && job->to.kind == SPEC_SPECTRUM_SAMPLED && job->to.count > 0)
+	if (job->change.has_to && job->change.to.kind == SPEC_SPECTRUM_SAMPLED &&
+		job->change.to.count > 0)
 		return spec_error_set(error, SPEC_EUSAGE,
 			"of an image, --to sampled has the image's own bands; --grid changes "
 			"them");
@@ -657,12 +466,13 @@ convert_bands(const struct cli *cli, struct job *job, struct spec_reader *reader
 	char **argv, struct spec_error *error)
 {
 	struct spec_convert convert = {0};
-	enum spec_status status = spec_own_settle(job->operation, job->setup.operations,
-		spec_reader_image(reader), spec_reader_name(reader), error);
+	enum spec_status status =
+		spec_own_settle(job->change.operation, job->change.setup.operations,
+			spec_reader_image(reader), spec_reader_name(reader), error);
 
 	if (status == SPEC_OK)
-		status = spec_convert_plan(&convert, spec_reader_image(reader), &job->setup,
-			spec_reader_name(reader), error);
+		status = spec_convert_plan(&convert, spec_reader_image(reader),
+			&job->change.setup, spec_reader_name(reader), error);
 
 	if (status == SPEC_OK && job->settings.history)
 		status = spec_image_add_history(&convert.image, argc, argv, error);
@@ -711,19 +521,14 @@ convert_image(const struct cli *cli, struct job *job, int argc, char **argv,
 static void
 free_job(struct job *job)
 {
-	for (size_t i = 0; i < job->setup.operations; i++)
-		spec_operation_free(&job->operation[i]);
-	free(job->operation);
-	free(job->edges_nm);
+	spec_convert_options_free(&job->change);
 	free((void *)job->input);
-	spec_grid_free(&job->grid);
-	spec_grid_free(&job->bands);
 }
 
 int
 main(int argc, char **argv)
 {
-	struct job job = {.setup = {.downsample = 1, .least = -1}};
+	struct job job = {0};
 	struct spec_error error = {0};
 	struct cli_progress progress;
 	enum spec_status status;
