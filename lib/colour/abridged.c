@@ -117,10 +117,7 @@ collect(long band, long first, size_t count)
 	return (size_t)(band - first) < count ? (size_t)(band - first) : count - 1;
 }
 
-/*
- * Bands of the image beyond the table must weigh nothing, so what is missing is collected in
- * the nearest that lies in it: here first and count are of those alone.
- */
+/* Given: the first band of the image that is in the table, and how many there are from it on. */
 static void
 fold(const double *product, int step_nm, long first, size_t count, double *weight,
 	size_t room)
@@ -162,8 +159,7 @@ spec_abridged_weights(const struct spec_curve *observer,
 	double *weight, double *sum, struct spec_error *error)
 {
 	int step_nm = step_of(wavelength_nm, count);
-	long first, before, bands;
-	size_t within = count;
+	long first, before;
 	double *product;
 	enum spec_status status;
 
@@ -180,13 +176,10 @@ spec_abridged_weights(const struct spec_curve *observer,
 		return SPEC_ENOMEM;
 	memset(weight, 0, 3 * count * sizeof *weight);
 	before = first < 0 ? -first : 0;
-	bands = RANGE_NM / step_nm + 1;
-	within -= (size_t)before;
-	if (first + before + (long)within > bands)
-		within = (size_t)(bands - first - before);
 	status = multiply(observer, illuminant, product, error);
 	if (status == SPEC_OK) {
-		fold(product, step_nm, first + before, within, weight + before, count);
+		fold(product, step_nm, first + before, count - (size_t)before,
+			weight + before, count);
 		status = normalise(product, weight, count, sum, error);
 	}
 	free(product);

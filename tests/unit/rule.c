@@ -282,6 +282,40 @@ astm_is_exact_for_parabolas(void **state)
 	}
 }
 
+/*
+ * An observer and a light that are 1 everywhere: the sum of a parabola over every nm, but by
+ * 20 nm the last 10 are those of 820 nm. No real observer sees the ends of the table.
+ */
+static void
+astm_reaches_to_the_ends(void **state)
+{
+	struct spec_curve level;
+
+	(void)state;
+	assert_int_equal(spec_curve_new(2, 3, &level, NULL), SPEC_OK);
+	level.wavelength_nm[0] = 300;
+	level.wavelength_nm[1] = 900;
+	for (size_t i = 0; i < 6; i++)
+		level.value[i] = 1;
+	for (int step = 10; step <= 20; step += 10) {
+		double nm[48], weight[3 * 48], sum, wanted = 0, got = 0;
+		size_t count = step == 10 ? 48 : 24;
+
+		for (size_t i = 0; i < count; i++)
+			nm[i] = 360 + (double)i * step;
+		assert_int_equal(spec_abridged_weights(
+					 &level, &level, nm, count, weight, &sum, NULL),
+			SPEC_OK);
+		near(sum, 471, 1e-10, "sum");
+		for (int at = 360; at <= 830; at++)
+			wanted += pow((step == 20 && at > 820 ? 820 : at) - 500, 2);
+		for (size_t i = 0; i < count; i++)
+			got += weight[count + i] * sum * pow(nm[i] - 500, 2);
+		near(got / wanted, 1, 1e-12, "parabola");
+	}
+	spec_curve_free(&level);
+}
+
 /* Bands beyond the table weigh nothing, and change nothing. */
 static void
 astm_ignores_bands_outside_its_table(void **state)
@@ -525,6 +559,7 @@ main(void)
 	const struct CMUnitTest tests[] = {
 		cmocka_unit_test(astm_has_its_tables),
 		cmocka_unit_test(astm_is_exact_for_parabolas),
+		cmocka_unit_test(astm_reaches_to_the_ends),
 		cmocka_unit_test(astm_ignores_bands_outside_its_table),
 		cmocka_unit_test(astm_refuses_other_bands),
 		cmocka_unit_test(grid_is_the_trapezoid),
