@@ -1,16 +1,66 @@
 /* What the maps of a comparison of images say. */
 #include <math.h>
+#include <stdint.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/memory.h"
 #include "compare/images.h"
 
-static int
-ascending(const void *a, const void *b)
-{
-	const float *one = a, *two = b;
+#define DIGITS 65536 /* a float's bits are two of them */
 
-	return (*one > *two) - (*one < *two);
+/* Whole numbers that order as the floats do (no NaN). */
+static inline uint32_t
+order_of(float value)
+{
+	uint32_t bits;
+
+	memcpy(&bits, &value, sizeof bits);
+	return bits & 0x80000000 ? ~bits : bits | 0x80000000;
+}
+
+static float
+value_of(uint32_t order)
+{
+	uint32_t bits = order & 0x80000000 ? order & 0x7fffffff : ~order;
+	float value;
+
+	memcpy(&value, &bits, sizeof value);
+	return value;
+}
+
+/*
+ * The first digit that *rank of the counted do not lie below, counted from 0; *rank becomes
+ * how many of that digit lie before it.
+ */
+static uint32_t
+find_digit(const size_t *count, size_t *rank)
+{
+	uint32_t digit = 0;
+
+	while (*rank >= count[digit])
+		*rank -= count[digit++];
+	return digit;
+}
+
+/* The value of that rank from 0 of those that are not NaN; there are more. count: DIGITS. */
+static float
+select_rank(const float *map, size_t pixels, size_t rank, size_t *count)
+{
+	uint32_t high;
+
+	memset(count, 0, DIGITS * sizeof *count);
+	for (size_t i = 0; i < pixels; i++)
+		count[order_of(map[i]) >> 16] += !isnan(map[i]);
+	high = find_digit(count, &rank);
+	memset(count, 0, DIGITS * sizeof *count);
+	for (size_t i = 0; i < pixels; i++) {
+		uint32_t order = order_of(map[i]);
+
+		if (order >> 16 == high && !isnan(map[i]))
+			count[order & 0xffff]++;
+	}
+	return value_of(high << 16 | find_digit(count, &rank));
 }
 
 static size_t
@@ -24,29 +74,30 @@ spec_images_percentile(const struct spec_images *result, enum spec_detail_pixel 
 	double share, double *value, size_t *x, int *y, struct spec_error *error)
 {
 	const float *map = result->map[kind];
-	size_t pixels = count_pixels(result), count = 0, rank, at = 0;
+	size_t pixels = count_pixels(result), known = 0, rank, at = 0;
 	size_t width = spec_window_width(&result->region);
-	float *sorted = spec_memory_new(pixels, sizeof *sorted, "pixels", error);
+	size_t *count = spec_memory_new(DIGITS, sizeof *count, "numbers", error);
 
-	if (!sorted)
+	if (!count)
 		return SPEC_ENOMEM;
 	for (size_t i = 0; i < pixels; i++)
-		if (!isnan(map[i]))
-			sorted[count++] = map[i];
+		known += !isnan(map[i]);
 	*value = NAN;
 	*x = 0;
 	*y = 0;
-	if (count > 0) {
-		qsort(sorted, count, sizeof *sorted, ascending);
-		rank = (size_t)ceil(share * (double)count);
-		rank = rank < 1 ? 0 : rank > count ? count - 1 : rank - 1;
-		*value = sorted[rank];
-		while (map[at] != sorted[rank])
+	if (known > 0) {
+		float found;
+
+		rank = (size_t)ceil(share * (double)known);
+		rank = rank < 1 ? 0 : rank > known ? known - 1 : rank - 1;
+		found = select_rank(map, pixels, rank, count);
+		while (map[at] != found)
 			at++;
+		*value = (double)found;
 		*x = at % width + (size_t)result->region.x0;
 		*y = (int)(at / width) + result->region.y0;
 	}
-	free(sorted);
+	free(count);
 	return SPEC_OK;
 }
 

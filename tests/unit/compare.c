@@ -5,9 +5,11 @@
 #include <string.h>
 
 #include "colour/difference.h"
+#include "compare/images.h"
 #include "compare/measure.h"
 
 #include "check.h"
+#include "random.h"
 
 #define PI 3.14159265358979323846
 
@@ -459,10 +461,175 @@ test_black(void **state)
 	near(spec_measure_psnr(&m, 1), 20 * log10(sqrt(2)), 1e-14, "psnr");
 }
 
+enum { DETAIL_BANDS = 13, DETAIL_WIDTH = 150 };
+
+struct detail {
+	float a[DETAIL_BANDS][DETAIL_WIDTH], b[DETAIL_BANDS][DETAIL_WIDTH];
+	float map[SPEC_DETAIL_PIXELS][DETAIL_WIDTH];
+	struct spec_detail_band band[DETAIL_BANDS];
+};
+
+/* Values above 0, some of them 0 or below in one image or in both; one NaN. */
+static void
+make_detail(struct detail *detail)
+{
+	const float *a[DETAIL_BANDS], *b[DETAIL_BANDS];
+	float *map[SPEC_DETAIL_PIXELS];
+	struct spec_measure_setup setup = {.bands = DETAIL_BANDS};
+	uint64_t random = 3;
+
+	for (size_t k = 0; k < DETAIL_BANDS; k++) {
+		for (size_t x = 0; x < DETAIL_WIDTH; x++) {
+			detail->a[k][x] = (float)random_in(&random, .1, 1);
+			detail->b[k][x] = (float)random_in(&random, .1, 1);
+			if (x % 10 == 1)
+				detail->a[k][x] = detail->b[k][x] = 0;
+		}
+		a[k] = detail->a[k];
+		b[k] = detail->b[k];
+	}
+	detail->a[5][20] = detail->b[5][20] = -1;
+	detail->b[7][30] = detail->a[9][32] = 0;
+	detail->a[2][140] = NAN;
+	for (int kind = 0; kind < SPEC_DETAIL_PIXELS; kind++)
+		map[kind] = detail->map[kind];
+	spec_detail_row(&setup, (1u << SPEC_DETAIL_DE76) - 1, a, b, DETAIL_WIDTH, map,
+		detail->band);
+}
+
+static void
+check_detail_pixel(const struct detail *detail, size_t x)
+{
+	long double aa = 0, bb = 0, ab = 0, sum_a = 0, sum_b = 0, square = 0, sid = 0;
+
+	for (size_t k = 0; k < DETAIL_BANDS; k++) {
+		long double p = detail->a[k][x], q = detail->b[k][x];
+
+		aa += p * p;
+		bb += q * q;
+		ab += p * q;
+		square += (p - q) * (p - q);
+		sum_a += p > 0 ? p : 0;
+		sum_b += q > 0 ? q : 0;
+	}
+	for (size_t k = 0; k < DETAIL_BANDS; k++) {
+		long double p = detail->a[k][x], q = detail->b[k][x];
+
+		p = p > 0 ? p / sum_a : 0;
+		q = q > 0 ? q / sum_b : 0;
+		if (p > 0 && q > 0)
+			sid += (p - q) * logl(p / q);
+		else if (p != q)
+			sid = INFINITY;
+	}
+	near(detail->map[SPEC_DETAIL_RMSE][x], (double)sqrtl(square / DETAIL_BANDS), 1e-7,
+		"rmse");
+	near(detail->map[SPEC_DETAIL_GFC][x],
+		aa > 0 ? (double)(fabsl(ab) / sqrtl(aa * bb)) : 1, 1e-7, "fit");
+	near(detail->map[SPEC_DETAIL_SAM][x],
+		aa > 0 ? (double)acosl(ab / sqrtl(aa * bb)) : 0, 2e-7, "angle");
+	if (isinf((double)sid))
+		assert_true(isinf(detail->map[SPEC_DETAIL_SID][x]));
+	else
+		near(detail->map[SPEC_DETAIL_SID][x], (double)sid, 4e-7, "divergence");
+}
+
+/* What each pixel and each band has, beside plain sums. */
+static void
+test_detail(void **state)
+{
+	static struct detail detail;
+
+	(void)state;
+	make_detail(&detail);
+	for (size_t x = 0; x < DETAIL_WIDTH; x++) {
+		if (x != 140)
+			check_detail_pixel(&detail, x);
+		else
+			assert_true(isinf(detail.map[SPEC_DETAIL_SAM][x]));
+	}
+	for (size_t k = 0; k < DETAIL_BANDS; k++) {
+		double magnitude = 0, a = 0, most = 0;
+
+		for (size_t x = 0; x < DETAIL_WIDTH; x++) {
+			double d = fabs((double)detail.a[k][x] - (double)detail.b[k][x]);
+
+			if (isnan(d))
+				continue;
+			magnitude += d;
+			a += (double)detail.a[k][x];
+			most = fmax(most, d);
+		}
+		near(detail.band[k].magnitude.sum + detail.band[k].magnitude.lost,
+			magnitude, 1e-12, "magnitude");
+		near(detail.band[k].a.sum + detail.band[k].a.lost, a, 1e-12, "sum");
+		if (k != 2)
+			near(detail.band[k].most, most, 0, "most");
+		else
+			assert_true(isinf(detail.band[k].most));
+		assert_int_equal(detail.band[k].samples, DETAIL_WIDTH);
+		assert_int_equal(detail.band[k].nonfinite, k == 2);
+	}
+}
+
+static int
+ascending(const void *a, const void *b)
+{
+	const float *one = a, *two = b;
+
+	return (*one > *two) - (*one < *two);
+}
+
+/* By nearest rank, as in a sorted copy; at the first of equal pixels, and none of NaN. */
+static void
+test_percentiles(void **state)
+{
+	enum { ACROSS = 37, DOWN = 23, PIXELS = ACROSS * DOWN, NANS = 5 };
+	static const double shares[] = {0, .001, .25, .5, .501, .95, .999, 1};
+	static float map[PIXELS], sorted[PIXELS];
+	struct spec_images images = {.region = {3, 2, 3 + ACROSS, 2 + DOWN}};
+	uint64_t random = 7;
+	double value;
+	size_t x, count = 0;
+	int y;
+
+	(void)state;
+	for (size_t i = 0; i < PIXELS; i++) {
+		map[i] = (float)(i % 3 ? random_in(&random, -1, 1)
+				       : random_between(&random, 1e-30, 1e30));
+		if (i % 50 == 7)
+			map[i] = .125f;
+	}
+	for (size_t i = 0; i < NANS; i++)
+		map[i * 100 + 11] = NAN;
+	map[400] = -INFINITY;
+	map[401] = INFINITY;
+	for (size_t i = 0; i < PIXELS; i++)
+		if (!isnan(map[i]))
+			sorted[count++] = map[i];
+	assert_int_equal(count, PIXELS - NANS);
+	qsort(sorted, count, sizeof *sorted, ascending);
+	images.map[SPEC_DETAIL_SAM] = map;
+	for (size_t i = 0; i < COUNT(shares); i++) {
+		size_t rank = (size_t)ceil(shares[i] * (double)count), at;
+
+		assert_int_equal(spec_images_percentile(&images, SPEC_DETAIL_SAM, shares[i],
+					 &value, &x, &y, NULL),
+			SPEC_OK);
+		assert_true(value == (double)sorted[rank > 0 ? rank - 1 : 0]);
+		at = (size_t)(y - 2) * ACROSS + (x - 3);
+		assert_true((double)map[at] == value);
+		while (at-- > 0)
+			assert_false((double)map[at] == value);
+	}
+}
+
 int
 main(void)
 {
 	const struct CMUnitTest tests[] = {
+		cmocka_unit_test(test_detail),
+		cmocka_unit_test(test_percentiles),
 		cmocka_unit_test(test_equal),
 		cmocka_unit_test(test_offset),
 		cmocka_unit_test(test_places),
