@@ -25,15 +25,15 @@ static const struct cli_option options[] = {
 		"colour-matching functions (default: 1931)"},
 	{0, "illuminant", "SPD", "light on an image of reflectance (default: D65)"},
 	{0, "space", "NAME|PRIMARIES",
-		"srgb, p3, dci-p3, rec709, rec2020, aces, acescg, adobe, xyz,\n"
+		"srgb, p3, dci-p3, rec709, rec2020, aces, acescg, adobe, xyz, "
 		"lab, xyy, or 'xr,yr xg,yg xb,yb xw,yw' (default: srgb)"},
 	{0, "transfer", "linear|srgb|rec709|rec2020|adobe|dci",
 		"encode whole numbers so (default: as the space has it)"},
 	{0, "adapt", "none|vonkries|bradford|cat02|cat16|daylight",
-		"adapt reflectance to the white of the space, or light from\n"
+		"adapt reflectance to the white of the space, or light from "
 		"the daylight of its own place and time (default: none)"},
 	{'e', "exposure", "EV|auto|auto:P%",
-		"multiply by 2^EV (default: 0), or so that the average becomes\n"
+		"multiply by 2^EV (default: 0), or so that the average becomes "
 		"0.18, or the percentile 1"},
 	{0, "tone", "none|reinhard|reinhard:W|filmic",
 		"compress luminance by a curve (default: none)"},
@@ -42,33 +42,35 @@ static const struct cli_option options[] = {
 	{0, "dither", NULL, "add noise before rounding to 8 bits"},
 	{0, "step", "NM", "use bands this far apart, each for those up to the next"},
 	{0, "lod", "N|METRIC:X",
-		"use 2^N + 1 bands and straight lines between them, or the fewest\n"
-		"whose difference from all bands is X or less; METRIC is de76,\n"
+		"use 2^N + 1 bands and straight lines between them, or the fewest "
+		"whose difference from all bands is X or less; METRIC is de76, "
 		"de76-max, de2000 or de2000-max"},
 	{0, "error", NULL, "with --step or --lod, print the difference from all bands"},
 	{'f', "format", "SUFFIX",
 		"of the output, such as ppm (default: the suffix of -o, else png)"},
 	{0, "bits", "8|16|32", "bits per sample (default: as the format has them)"},
 	{0, "rule", "cie|grid|astm",
-		"integrate by 1 nm, over the image's own wavelengths, or by the\n"
+		"integrate by 1 nm, over the image's own wavelengths, or by the "
 		"weights of ASTM E308 for reflectance (default: cie)"},
 	{0, "white", "1|100",
-		"Y of the perfect reflector, and of light of 1 per nm\n(default: 1)"},
+		"Y of the perfect reflector, and of light of 1 per nm (default: 1)"},
 	{0, "absolute", NULL, "Y in cd/m^2, of light that is a radiance"},
 	{'v', "verbose", NULL,
-		"tell how it was integrated, on standard error and in OpenEXR"},
+		"tell how it was integrated, on standard error and in OpenEXR's "
+		"spec:integration"},
 	{0, "model", "hsv|hsl|yuv|cmyk",
 		"the components of a colour model, as an OpenEXR image"},
 	{0, "layer", "NAME",
-		"show this layer: film1.mirror, through; N, uv and the like as\n"
+		"show this layer: film1.mirror, through; N, uv and the like as "
 		"codes; any channel in false colours"},
-	{'b', "band", "WAVELENGTH", "false colours: of this band's values"},
-	{0, "expr", "EXPRESSION", "of a number: '(b750-b670)/(b750+b670)'"},
+	{'b', "band", "WAVELENGTH", "false colours of this band's values"},
+	{0, "expr", "EXPRESSION",
+		"false colours of a number, such as '(b750-b670)/(b750+b670)'"},
 	{0, "stokes", "dop|dolp|docp|aop|ellipticity",
-		"of what the Stokes components tell of polarisation"},
+		"false colours of what the Stokes components tell of polarisation"},
 	{0, "range", "A..B|auto",
-		"the numbers that the map's ends stand for (default: the least\n"
-		"and the largest; of --stokes, directions and uv theirs)"},
+		"the numbers that the map's ends stand for (default: the least "
+		"and the largest, or those that a quantity has by itself, such as an angle)"},
 	{0, "colour-map", "NAME",
 		"viridis, grey, cool-warm or hue (default: viridis; of angles hue)"},
 	{0, "legend", NULL, "add the map and its numbers below the picture"},
@@ -79,7 +81,7 @@ static const struct cli_program program = {
 	.name = "spec2rgb",
 	.arguments = "[OPTION]... [FILE]",
 	.summary =
-		"Show a spectral image as a picture: PNG, PPM, EXR by the suffix of -o, any\n"
+		"Show a spectral image as a picture: PNG, PPM, EXR by the suffix of -o, any "
 		"other format through OpenImageIO.",
 	.options = options,
 };

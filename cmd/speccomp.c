@@ -11,15 +11,16 @@
 
 static const struct cli_option options[] = {
 	{0, "op", "NAME",
-		"add subtract multiply divide min max mean over lerp:\n"
+		"add subtract multiply divide min max mean over lerp: "
 		"what is done with the images, band by band"},
 	{0, "merge", NULL,
-		"merge renders of one scene: the mean, weighted by their\n"
+		"merge renders of one scene: the mean, weighted by their "
 		"samples per pixel"},
 	{'e', "expr", "EXPRESSION",
-		"or this: a is the first image's value in the band, b ..."},
+		"this instead, such as 'a - b': a is the first image's value in the band, b the "
+		"second's"},
 	{'m', "mask", "CHANNEL|FILE",
-		"of lerp: where it is 1 the second image shows\n"
+		"of lerp: where it is 1 the second image shows; "
 		"CHANNEL, CHANNEL=N, FILE, FILE:CHANNEL, FILE:CHANNEL=N"},
 	{0, "alpha", "CHANNEL", "of over (default: A)"},
 	{'w', "weight", "W,W,...", "of mean and --merge: a number for each image"},

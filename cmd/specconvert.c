@@ -22,9 +22,9 @@
 
 static const struct cli_option options[] = {
 	{'g', "grid", "LO:HI:STEP|FILE|native",
-		"new bands, between the old ones [nm]; those of a FILE or SPD"},
+		"new bands at these wavelengths [nm], or at those of a FILE or SPD"},
 	{0, "interp", "linear|nearest|left|sprague",
-		"what lies between the old ones (default: linear, or as a\n"
+		"what lies between the old ones (default: linear, or as a "
 		"curve's file says)"},
 	{0, "rebin", NULL, "the bins of --grid get the energy of the old bins"},
 	{'b', "band", "WAVELENGTH", "keep this band; may be given several times"},
@@ -34,7 +34,7 @@ static const struct cli_option options[] = {
 	{0, "to-vacuum", NULL, "make wavelengths in air those in vacuum"},
 	{0, "input-unit", "nm|um|THz|cm-1", "what a curve is tabulated over (default: nm)"},
 	{'m', "multiply", "SPD",
-		"multiply by a curve; this and the following may be\n"
+		"multiply by a curve; this and the following may be "
 		"given several times, and are done in the order given"},
 	{0, "divide", "SPD", "divide by a curve"},
 	{0, "add", "SPD", "add a curve"},
@@ -44,18 +44,18 @@ static const struct cli_option options[] = {
 	{0, "illuminate", "SPD", "turn reflectance into the light it sends back"},
 	{0, "reflectance-of", "SPD", "turn light into the reflectance under this light"},
 	{0, "least", "X",
-		"light below X of its most tells no reflectance\n(default: 0.001)"},
+		"light below X of its most tells no reflectance (default: 0.001)"},
 	{0, "from-rgb", "smits|sun|sigmoid|basis",
 		"make spectra of the colours of an image, or of '#rrggbb'"},
 	{0, "as", "reflectance|light|unbounded",
 		"what they become (default: reflectance; after sun, light)"},
 	{0, "vectors", "NAME",
-		"make NAME.X, NAME.Y, NAME.Z of the codes of a picture, 2 c - 1,\n"
-		"as of normals by spec2rgb --layer N"},
+		"make channels NAME.X, NAME.Y, NAME.Z of a picture's codes c, 2 c - 1: undoes "
+		"spec2rgb --layer N"},
 	{0, "extrapolate", "refuse|zero|constant",
 		"what lies outside the data (default: refuse)"},
 	{0, "to", "KIND",
-		"another representation: sampled[:LO:HI:STEP], tabulated,\n"
+		"another representation: sampled[:LO:HI:STEP], tabulated, "
 		"fourier:N, composite:K or composite:K,N"},
 	{0, "from-plot", "X,Y=WAVELENGTH,VALUE X,Y=WAVELENGTH,VALUE",
 		"read a curve off the picture of a plot, by two places in it"},
@@ -66,16 +66,16 @@ static const struct cli_option options[] = {
 	{0, "place", "PLACE", "say where the image was taken"},
 	{0, "time", "TIME", "say when: ISO 8601 with an offset, or now"},
 	{0, "crop", "X0,Y0,X1,Y1",
-		"keep these pixels of the data window; x1, y1 are not in it"},
+		"keep these pixels of the data window; X1, Y1 are outside"},
 	{0, "downsample", "N", "mean of N x N pixels"},
 	{0, "projection", "NAME[:HEIGHT]",
-		"lay what is all around out anew: latlong, cross, tall-cross,\n"
+		"lay out anew what is all around: latlong, cross, tall-cross, "
 		"octahedral; the input's shape tells its own"},
 	{0, "patches", "COLUMNSxROWS", "make a chart of patches from curves"},
 	{0, "patch", "PIXELS", "side of a patch (default: 1)"},
 	{0, "gap", "PIXELS", "black between the patches (default: 0)"},
 	{0, "strip", "HEIGHT",
-		"make a picture of a curve: a pixel for each wavelength,\n"
+		"make a picture of a curve: a pixel for each wavelength, "
 		"red, green and blue its columns"},
 	{0, "scaling", "none|global|channel",
 		"divide a strip by its greatest value (default: none)"},
@@ -88,7 +88,7 @@ static const struct cli_program program = {
 	.name = "specconvert",
 	.arguments = "[OPTION]... [FILE|SPD]...",
 	.summary =
-		"Change the grid, values or extent of a spectral image or of curves, and turn\n"
+		"Change the grid, values or extent of a spectral image or of curves, and turn "
 		"one into the other.",
 	.options = options,
 	.writes_images = 1,

@@ -17,29 +17,31 @@
 
 static const struct cli_option options[] = {
 	{'m', "metric", "NAME,...",
-		"print these: rmse max sam sam-max psnr gfc gfc-min de2000\n"
-		"de2000-max (default: these nine) mae relative energy sid\n"
-		"sid-max de76 de76-max de94 de94-max, percentiles such as\n"
+		"print these: rmse max sam sam-max psnr gfc gfc-min de2000 "
+		"de2000-max (default: these nine) mae relative energy sid "
+		"sid-max de76 de76-max de94 de94-max, percentiles such as "
 		"de2000-p95, or all"},
 	{'t', "tolerance", "NAME=VALUE",
 		"differ only beyond this; may be given several times"},
 	{0, "exact", NULL, "differ where any bit of a sample does"},
 	{0, "same-within", "Nsigma",
-		"test whether two renders differ by more than their noise;\n"
+		"test whether two renders differ by more than their noise; "
 		"a false alarm is as rare as N sigma of a normal noise"},
 	{0, "bands", NULL, "print rmse, mae and max of each band"},
-	{0, "json", NULL, "print as JSON"},
+	{0, "json", NULL, "print JSON"},
 	{0, "resample", NULL, "compare different grids over their overlap"},
-	{0, "crop", "X0,Y0,X1,Y1", "compare these pixels of the data window alone"},
+	{0, "crop", "X0,Y0,X1,Y1",
+		"compare these pixels of the data window alone; X1, Y1 are outside"},
 	{0, "mask", "CHANNEL|FILE",
-		"compare where this is not 0: CHANNEL, CHANNEL=N, FILE,\n"
+		"compare where this is not 0: CHANNEL, CHANNEL=N, FILE, "
 		"FILE:CHANNEL, FILE:CHANNEL=N"},
 	{0, "heatmap", "FILE", "write a picture of where the images differ"},
-	{0, "side-by-side", "FILE", "write both images and that, in one picture"},
+	{0, "side-by-side", "FILE", "write both images and such a picture, in one"},
 	{0, "heatmap-metric", "NAME",
-		"of these pictures: rmse mae max sam gfc sid de76 de94 de2000\n"
+		"of these pictures: rmse mae max sam gfc sid de76 de94 de2000 "
 		"(default: de2000, without colours max)"},
-	{0, "heatmap-max", "VALUE", "of their last colour (default: the largest)"},
+	{0, "heatmap-max", "VALUE",
+		"what the last colour of these pictures stands for (default: the largest)"},
 	{0, "observer", "1931|1964|2015-2|2015-10|SPD",
 		"for colour differences (default: 1931)"},
 	{0, "illuminant", "SPD", "for colour differences of reflectance (default: D65)"},
@@ -53,7 +55,7 @@ static const struct cli_program program = {
 	.name = "specdiff",
 	.arguments = "[OPTION]... FILE1 FILE2",
 	.summary =
-		"Tell how far apart two spectral images are. Exit status: 0 the same (or within\n"
+		"Tell how far apart two spectral images are. Exit status: 0 the same (or within "
 		"the tolerances), 1 different, 2 trouble.",
 	.options = options,
 };

@@ -23,17 +23,17 @@ static const struct cli_option options[] = {
 	{'m', "mask", "ID",
 		"this disc is for surfaces of this id; repeat --preset for others"},
 	{0, "model", "composite|orders",
-		"Vangorp & Yskout's, made to look like photographs,\n"
-		"or the grating's orders by scalar diffraction\n(default: composite)"},
+		"Vangorp & Yskout's, made to look like photographs, "
+		"or the grating's orders by scalar diffraction (default: composite)"},
 	{0, "spread", "ANGLE",
-		"of an order about its direction, a standard deviation\n"
+		"of an order about its direction, a standard deviation "
 		"(default: 0.5deg; model orders)"},
 	{0, "centre", "X,Y,Z", "tracks are circles around it, in place of Tan [m]"},
-	{0, "axis", "X,Y,Z", "... and around this direction (default: 0,0,1)"},
+	{0, "axis", "X,Y,Z", "and turn about this direction (default: 0,0,1)"},
 	{'k', "keep", NULL, "leave the layers in the image"},
 	{0, "orders", NULL, "print the directions of the orders, and read no image"},
 	{0, "chart", "AXES",
-		"make a chart, and read no image: one or two of 'eye A..B,\n"
+		"make a chart, and read no image: one or two of 'eye A..B, "
 		"lamp A..B, azimuth A..B', to the right and downwards"},
 	{0, "size", "WxH", "of the chart in pixels (default: 480x270)"},
 	{'a', "angle", "ANGLE", "of the lamp, for --orders and --chart (default: 0deg)"},
@@ -41,7 +41,7 @@ static const struct cli_option options[] = {
 	{0, "azimuth", "ANGLE",
 		"of lamp and eye, 0 across the tracks, 90 along them (default: 0deg)"},
 	{'g', "grid", "LO:HI:STEP",
-		"wavelengths of --orders and --chart [nm]\n(default: 380:780:5)"},
+		"wavelengths of --orders and --chart [nm] (default: 380:780:5)"},
 	{0},
 };
 
@@ -49,7 +49,7 @@ static const struct cli_program program = {
 	.name = "specdisc",
 	.arguments = "[OPTION]... [FILE]",
 	.summary =
-		"Put the colours of a compact disc, or another grating, on the surface that an\n"
+		"Put the colours of a compact disc, or another grating, on the surface that an "
 		"image's lamp layers light, or chart them.",
 	.options = options,
 	.writes_images = 1,

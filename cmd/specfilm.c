@@ -14,10 +14,10 @@
 
 static const struct cli_option options[] = {
 	{'s', "stack", "STACK",
-		"ambient | layer thickness | ... | substrate, such as\n"
+		"ambient | layer thickness | ... | substrate, such as "
 		"'air | 1.33 500nm | air' or 'air | (TiO2 60nm | SiO2 95nm)^8 | N-BK7'"},
 	{'t', "thickness", "THICKNESS",
-		"of the only layer, or of the one with * for its thickness:\n"
+		"of the only layer, or of the one with * for its thickness: "
 		"500nm, or 'gravity 530nm..730nm [AXIS]'"},
 	{'m', "mask", "ID",
 		"this stack is for surfaces of this id; repeat --stack for others"},
@@ -25,14 +25,14 @@ static const struct cli_option options[] = {
 	{'k', "keep", NULL, "leave the layers in the image"},
 	{0, "spectrum", NULL, "print R, T and A over wavelength, and read no image"},
 	{0, "chart", "AXES",
-		"make a chart, and read no image: one or two of\n"
+		"make a chart, and read no image: one or two of "
 		"'thickness A..B, angle A..B', to the right and downwards"},
 	{0, "of", "SHARE",
-		"a chart of: reflectance transmittance absorptance\n(default: reflectance)"},
+		"a chart of: reflectance transmittance absorptance (default: reflectance)"},
 	{0, "size", "WxH", "of the chart in pixels (default: 480x270)"},
 	{'a', "angle", "ANGLE", "of incidence, for --spectrum and --chart (default: 0deg)"},
 	{'g', "grid", "LO:HI:STEP",
-		"wavelengths of --spectrum and --chart [nm]\n(default: 380:780:5)"},
+		"wavelengths of --spectrum and --chart [nm] (default: 380:780:5)"},
 	{0, "extrapolate", "refuse|constant",
 		"indices outside their data (default: refuse)"},
 	{0},
@@ -42,7 +42,7 @@ static const struct cli_program program = {
 	.name = "specfilm",
 	.arguments = "--stack STACK [OPTION]... [FILE]",
 	.summary =
-		"Put thin films on the surfaces that an image's light layers show, or chart what\n"
+		"Put thin films on the surfaces that an image's light layers show, or chart what "
 		"films reflect.",
 	.options = options,
 	.writes_images = 1,

@@ -31,33 +31,33 @@
 static const struct cli_option options[] = {
 	{0, "json", NULL, "print JSON: an object, or an array of them for several files"},
 	{'s', "statistics", NULL,
-		"min, max, mean, standard deviation, counts of NaN, of\n"
+		"min, max, mean, standard deviation, counts of NaN, of "
 		"infinities and of negative values; reads all pixels"},
 	{'b', "bands", NULL, "the same for each band, too"},
 	{'p', "probe", "X,Y",
-		"print the spectrum of this pixel and its colour in place of\n"
+		"print the spectrum of this pixel and its colour in place of "
 		"all that; may be given several times"},
-	{0, "patches", "FILE|CxR",
-		"the same of means over rectangles: lines NAME X0 Y0 X1 Y1,\n"
+	{0, "patches", "FILE|COLUMNSxROWS",
+		"the same of means over rectangles: lines NAME X0 Y0 X1 Y1, "
 		"or a chart's columns and rows, such as 6x4"},
 	{0, "observer", "1931|1964|2015-2|2015-10|SPD", "who sees colours (default: 1931)"},
 	{0, "illuminant", "SPD",
-		"the light on reflectance, and white (default: D65; equal\n"
+		"the light on reflectance, and white (default: D65; equal "
 		"energy for dominant wavelengths of light)"},
 	{0, "rule", "cie|grid|astm",
-		"integrate by 1 nm, over the spectrum's own wavelengths, or by\n"
+		"integrate by 1 nm, over the spectrum's own wavelengths, or by "
 		"the weights of ASTM E308 for reflectance (default: cie)"},
 	{0, "plot", "FILE",
-		"draw the curves, or what --probe and --patches measure, and\n"
+		"draw the curves, or what --probe and --patches measure, and "
 		"their places in the chromaticity diagram: .png, .svg, .pdf"},
 	{0, "sun", "PLACE|own",
-		"tell where the sun is and when it rises and sets at this\n"
+		"tell where the sun is and when it rises and sets at this "
 		"place and --time, or where and when each FILE was taken"},
 	{0, "time", "TIME", "ISO 8601 with an offset, or now"},
 	{0, "toward", "PLACE", "add bearing and distance of another place"},
 	{0, "air", "HPA,CELSIUS", "what bends the light (default: the standard's)"},
 	{'c', "check", NULL,
-		"list what is wrong with images, a line for each finding;\n"
+		"list what is wrong with images, a line for each finding; "
 		"reads all pixels"},
 	{0},
 };
@@ -66,7 +66,7 @@ static const struct cli_program program = {
 	.name = "specinfo",
 	.arguments = "[OPTION]... [FILE|SPD]...",
 	.summary =
-		"Tell what is in spectral images and in curves, or what is wrong with images. Exit\n"
+		"Tell what is in spectral images and in curves, or what is wrong with images. Exit "
 		"status: 0 done, 1 --check has found errors or warnings, 2 trouble.",
 	.options = options,
 };

@@ -17,15 +17,16 @@ static const struct cli_option options[] = {
 	{'g', "grid", "LO:HI:STEP", "wavelengths of the bands [nm] (default: 380:780:5)"},
 	{'n', "spp", "N", "samples per pixel (default: the scene's, else 16)"},
 	{0, "size", "WxH", "of the picture in pixels (default: the scene's)"},
-	{0, "crop", "X0,Y0,X1,Y1", "render these pixels of it; x1, y1 are not among them"},
+	{0, "crop", "X0,Y0,X1,Y1",
+		"render these pixels of the picture alone; X1, Y1 are outside"},
 	{'d', "defer", "film|disc|film,disc",
-		"write the light that arrives at thin films and discs,\n"
+		"write the light that arrives at thin films and discs, "
 		"for specfilm and specdisc, in place of what they make of it"},
 	{0, "films", "N", "films along the view ray that are deferred (default: 2)"},
 	{0, "supersample", "N", "N times the resolution each way"},
 	{0, "gbuffer", NULL, "write the first surface's geometry, too"},
 	{0, "variance", NULL,
-		"write the variance of each sample in the image, too, for\n"
+		"write the variance of each sample in the image, too, for "
 		"specdiff --same-within"},
 	{0, "extrapolate", "refuse|constant",
 		"reflectances and indices outside their data (default: refuse)"},

@@ -11,6 +11,7 @@
 #define EXIT_TROUBLE 2
 #define LONGEST_NAME 32
 #define HELP_COLUMN 28
+#define HELP_WIDTH 80 /* columns: the narrowest terminal that people have */
 
 static const struct cli_option common_options[] = {
 	{'o', "output", "FILE", "write FILE (default: standard output)"},
@@ -18,10 +19,10 @@ static const struct cli_option common_options[] = {
 	{0, "part", "N|NAME", "which part of a file with several"},
 	{0, "name-map", "NAME=NM,...", "channels that are bands, though not named so"},
 	{0, "wavelengths", "LO:HI:STEP",
-		"of bands whose file does not say them [nm]; or W,W,..."},
+		"or W,W,...: of bands whose file does not say them [nm]"},
 	{0, "read-as", "radiance|reflectance", "what bands are whose file does not say it"},
 	{0, "limit", "NAME=VALUE",
-		"raise or lower a limit: pixels channels attributes\nheader memory"},
+		"raise or lower a limit: pixels channels attributes header memory"},
 	{0, "progress", NULL, "show progress even when stderr is no terminal"},
 	{'q', "quiet", NULL, "no warnings, no progress"},
 	{'h', "help", NULL, "show this text"},
@@ -31,7 +32,7 @@ static const struct cli_option common_options[] = {
 
 static const struct cli_option image_options[] = {
 	{0, "compression", "NAME",
-		"none rle zips zip piz pxr24 b44 b44a\n(default: zip, to a pipe none)"},
+		"none rle zips zip piz pxr24 b44 b44a (default: zip, to a pipe none)"},
 	{0, "half", NULL, "store bands as 16-bit floats"},
 	{0, "no-history", NULL, "do not record this command in the output"},
 	{0},
@@ -60,11 +61,43 @@ cli_start(struct cli *cli, const struct cli_program *program, int argc, char **a
 		*cli = (struct cli){.program = program};
 }
 
+/* Up to the next blank where a line may end: a default stays whole, and what is quoted. */
+static int
+word_length(const char *text)
+{
+	static const char lead[] = "(default: ";
+	const char *end = text;
+	const char *quote;
+
+	if (strncmp(end, lead, sizeof lead - 1) == 0)
+		end += sizeof lead - 1;
+	quote = *end == '\'' ? strchr(end + 1, '\'') : NULL;
+	if (quote)
+		end = quote;
+	return (int)(end - text + strcspn(end, " "));
+}
+
+/* Lines of a text, indented; the first is by now. */
+static void
+print_wrapped(const char *text, int indent)
+{
+	int column = indent;
+
+	for (int length; *text; text += length + strspn(text + length, " ")) {
+		length = word_length(text);
+		if (column > indent && column + 1 + length > HELP_WIDTH) {
+			printf("\n%*s", indent, "");
+			column = indent;
+		}
+		column += printf("%s%.*s", column > indent ? " " : "", length, text);
+	}
+	printf("\n");
+}
+
 static void
 print_option(const struct cli_option *option)
 {
 	char left[80];
-	const char *line = option->help;
 	int length;
 
 	length = option->letter ? snprintf(left, sizeof left, "  -%c, ", option->letter)
@@ -75,9 +108,7 @@ print_option(const struct cli_option *option)
 		printf("%s\n%*s", left, HELP_COLUMN, "");
 	else
 		printf("%-*s", HELP_COLUMN, left);
-	for (const char *end; (end = strchr(line, '\n')) != NULL; line = end + 1)
-		printf("%.*s\n%*s", (int)(end - line), line, HELP_COLUMN, "");
-	printf("%s\n", line);
+	print_wrapped(option->help, HELP_COLUMN);
 }
 
 static _Noreturn void
@@ -85,7 +116,9 @@ print_help(const struct cli *cli)
 {
 	const struct cli_program *program = cli->program;
 
-	printf("usage: %s %s\n%s\n\n", program->name, program->arguments, program->summary);
+	printf("usage: %s %s\n", program->name, program->arguments);
+	print_wrapped(program->summary, 0);
+	printf("\n");
 	for (int i = 0; i < TABLES; i++) {
 		for (const struct cli_option *option = table(program, i); option->name;
 			option++)

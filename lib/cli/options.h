@@ -11,13 +11,13 @@ struct cli_option {
 	char letter;          /* 0: none */
 	const char *name;     /* without the dashes */
 	const char *argument; /* how the help names it; null: takes none */
-	const char *help;     /* may hold line breaks */
+	const char *help;     /* a line, which is wrapped; what is in '' stays together */
 };
 
 struct cli_program {
 	const char *name;
 	const char *arguments; /* of the synopsis, such as "[OPTION]... [FILE]" */
-	const char *summary;   /* one line */
+	const char *summary;   /* of any length, wrapped */
 	const struct cli_option *options; /* ends with a null name; all tools' follow */
 	int writes_images; /* has the options of what writes spectral images */
 };
