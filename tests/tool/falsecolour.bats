@@ -80,6 +80,9 @@ first='68 1 84' last='253 231 37' quarter='59 82 139'
   is "$last" between.ppm 10 1
   spec2rgb --expr 7 x.exr -o seven.ppm
   is "$first" seven.ppm 5 1
+  # a scale all the same, which begins there
+  spec2rgb --expr 7 --legend x.exr -o seven.ppm
+  spec2rgb --expr 7 --range 7..14 --legend x.exr | cmp - <(spec2rgb --expr 7 --legend x.exr)
   spec2rgb --expr y --range 0..1 x.exr -o y.ppm
   is "$first" y.ppm 10 0
   is "$last" y.ppm 0 1
@@ -98,6 +101,8 @@ first='68 1 84' last='253 231 37' quarter='59 82 139'
   spec2rgb -q --band 400 --range 0..10 x.exr -o given.ppm 2>err
   [ ! -s err ]
   cmp x.ppm given.ppm
+  spec2rgb --expr 'y == 1 && x > 6 ? 0/0 : x' x.exr -o below.ppm 2>err
+  grep -qF '4 pixels are not finite, the first at 7,1' err || complain "$(cat err)"
   spec2rgb --expr '0/0' x.exr -o none.ppm 2>err
   grep -qF '22 pixels are not finite, the first at 0,0' err
   is '128 128 128' none.ppm 0 0
@@ -262,6 +267,10 @@ END
   spectral uv.exr --size 9x2 --grid 400:500:50 --channel u --channel v --pattern constant:0.25
   spec2rgb --layer uv uv.exr -o uv.ppm
   is '64 64 0' uv.ppm 4 1
+  fails_cleanly spec2rgb --layer vu uv.exr -o x.png
+  fails_cleanly spec2rgb --layer w uv.exr -o x.png
+  spec2rgb --layer uv --range=-1..1 uv.exr -o uv.ppm
+  is '159 159 0' uv.ppm 4 1
   spectral id.exr --size 9x2 --uint-id
   spec2rgb --layer id --range 0..65544 id.exr -o id.ppm
   is "$first" id.ppm 0 0

@@ -73,11 +73,13 @@ shows() {
 }
 
 @test "other channels come along, whole numbers as they are" {
-  spectral id.exr --size 32x16 --grid 400:500:100 --uint-id
+  spectral id.exr --size 32x16 --grid 400:500:100 --uint-id --attribute envmap=latlong --attribute owner=nobody
   specconvert --projection latlong id.exr -o same.exr
   for place in 0,0 5,7 31,15; do
     [ "$("$TESTS/layers" --print $place same.exr | grep '^id ')" = "$("$TESTS/layers" --print $place id.exr | grep '^id ')" ]
   done
+  has_line same.exr 'owner (type string): "nobody"'
+  [[ $(exrheader same.exr) != *envmap\ * ]] # which would be another shape's
   has_channels same.exr S0.400,000000nm S0.500,000000nm id
   specconvert --projection cross --half id.exr -o cross.exr
   [ "$("$TESTS/layers" --print 0,0 cross.exr | grep '^id ')" = 'id 0' ]
