@@ -410,8 +410,8 @@ leave_out(struct job *job, struct spec_reader *reader, const struct spec_image *
 
 /* Adds to what --verbose tells which bands were kept. */
 static enum spec_status
-tell_level(struct job *job, const char *name, const struct spec_level_report *report,
-	struct spec_error *error)
+tell_level(
+	struct job *job, const struct spec_level_report *report, struct spec_error *error)
 {
 	char text[SPEC_LEVEL_TEXT], *longer;
 	size_t size;
@@ -419,7 +419,6 @@ tell_level(struct job *job, const char *name, const struct spec_level_report *re
 	if (!job->verbose || job->level.kind == SPEC_LEVEL_ALL)
 		return SPEC_OK;
 	spec_level_text(&job->level, report, text);
-	fprintf(stderr, "%s: %s: %s\n", program.name, name, text);
 	size = strlen(job->account) + strlen(text) + sizeof "; ";
 	longer = spec_memory_new(size, 1, "bytes", error);
 	if (!longer)
@@ -608,7 +607,7 @@ show_colours(struct cli *cli, struct job *job, struct spec_reader *reader,
 	if (status == SPEC_OK)
 		status = leave_out(job, reader, image, &rgb, &report, &error);
 	if (status == SPEC_OK)
-		status = tell_level(job, name, &report, &error);
+		status = tell_level(job, &report, &error);
 	if (status != SPEC_OK)
 		cli_progress_end(progress);
 	cli_check(cli, status, &error);

@@ -244,7 +244,8 @@ coarse() {
     args=${option%%:*}
     # shellcheck disable=SC2086 # words
     spec2rgb -v ${args/=/:} a.exr -o x.exr 2>said
-    [ "$(tail -n 1 said)" = "spec2rgb: a.exr: ${option#*:}" ] || complain "$(<said)"
+    [[ $(<said) = "spec2rgb: a.exr: rule "*"; ${option#*:}" ]] || complain "$(<said)"
+    [ "$(wc -l <said)" = 1 ]
     exrheader x.exr | grep -q "^spec:integration .*; ${option#*:}\"$"
   done
   spec2rgb -v a.exr -o x.exr 2>said
