@@ -83,6 +83,21 @@ spec_error_point(struct spec_error *error, const char *text, size_t at)
 		"");
 }
 
+enum spec_status
+spec_error_set_at(
+	struct spec_error *error, const char *text, size_t at, const char *format, ...)
+{
+	char message[sizeof error->message];
+	va_list arguments;
+
+	va_start(arguments, format);
+	vsnprintf(message, sizeof message, format, arguments);
+	va_end(arguments);
+	spec_error_set(error, SPEC_EUSAGE, "%s", message);
+	spec_error_point(error, text, at);
+	return SPEC_EUSAGE;
+}
+
 void
 spec_error_prefix(struct spec_error *error, const char *format, ...)
 {

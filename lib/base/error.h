@@ -42,6 +42,10 @@ enum spec_status spec_error_system(struct spec_error *error, int errnum, const c
  */
 void spec_error_point(struct spec_error *error, const char *text, size_t at);
 
+/* Both at once, of status SPEC_EUSAGE, which is returned. */
+enum spec_status spec_error_set_at(struct spec_error *error, const char *text, size_t at,
+	const char *format, ...) __attribute__((format(printf, 4, 5)));
+
 /* Puts "prefix: " before the message that is there. */
 void spec_error_prefix(struct spec_error *error, const char *format, ...)
 	__attribute__((format(printf, 2, 3)));

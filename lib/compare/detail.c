@@ -29,25 +29,6 @@ struct chunk {
 	double value[SPEC_DETAIL_PIXELS][CHUNK];
 };
 
-/* Neumaier 1974: keeps what each addition rounds away. */
-static void
-sum_add(struct spec_measure_sum *sum, double value)
-{
-	double total = sum->sum + value;
-
-	if (fabs(sum->sum) >= fabs(value))
-		sum->lost += (sum->sum - total) + value;
-	else
-		sum->lost += (value - total) + sum->sum;
-	sum->sum = total;
-}
-
-static double
-sum_value(const struct spec_measure_sum *sum)
-{
-	return isfinite(sum->sum) ? sum->sum + sum->lost : sum->sum;
-}
-
 /* Copies with 0 for what is not finite on both sides; returns whether there is any. */
 SPEC_VECTORISED static int
 clean(const float *restrict a, const float *restrict b, size_t count,
@@ -140,11 +121,11 @@ add_band(const struct chunk *chunk, size_t spoiled, struct spec_detail_band *ban
 	struct part part = {0};
 
 	sum_part(chunk->clean_a, chunk->clean_b, &part);
-	sum_add(&band->square, sum_lanes(part.square));
-	sum_add(&band->magnitude, sum_lanes(part.magnitude));
-	sum_add(&band->square_a, sum_lanes(part.square_a));
-	sum_add(&band->a, sum_lanes(part.a));
-	sum_add(&band->b, sum_lanes(part.b));
+	spec_measure_sum_add(&band->square, sum_lanes(part.square));
+	spec_measure_sum_add(&band->magnitude, sum_lanes(part.magnitude));
+	spec_measure_sum_add(&band->square_a, sum_lanes(part.square_a));
+	spec_measure_sum_add(&band->a, sum_lanes(part.a));
+	spec_measure_sum_add(&band->b, sum_lanes(part.b));
 	for (size_t k = 0; k < LANES; k++)
 		band->most = fmax(band->most, part.most[k]);
 	if (spoiled > 0)
@@ -343,21 +324,14 @@ spec_detail_row(const struct spec_measure_setup *setup, spec_detail_wanted wante
 	}
 }
 
-static void
-sum_join(struct spec_measure_sum *total, const struct spec_measure_sum *row)
-{
-	sum_add(total, row->sum);
-	total->lost += row->lost;
-}
-
 void
 spec_detail_band_add(struct spec_detail_band *total, const struct spec_detail_band *row)
 {
-	sum_join(&total->square, &row->square);
-	sum_join(&total->magnitude, &row->magnitude);
-	sum_join(&total->square_a, &row->square_a);
-	sum_join(&total->a, &row->a);
-	sum_join(&total->b, &row->b);
+	spec_measure_sum_join(&total->square, &row->square);
+	spec_measure_sum_join(&total->magnitude, &row->magnitude);
+	spec_measure_sum_join(&total->square_a, &row->square_a);
+	spec_measure_sum_join(&total->a, &row->a);
+	spec_measure_sum_join(&total->b, &row->b);
 	if (row->most > total->most)
 		total->most = row->most;
 	total->samples += row->samples;
@@ -386,8 +360,9 @@ spec_detail_rmse(const struct spec_detail_band *band, size_t count)
 {
 	struct spec_detail_band all = join(band, count);
 
-	return is_known(&all) ? sqrt(sum_value(&all.square) / (double)all.samples)
-			      : INFINITY;
+	return is_known(&all)
+		       ? sqrt(spec_measure_sum_value(&all.square) / (double)all.samples)
+		       : INFINITY;
 }
 
 double
@@ -395,7 +370,8 @@ spec_detail_mae(const struct spec_detail_band *band, size_t count)
 {
 	struct spec_detail_band all = join(band, count);
 
-	return is_known(&all) ? sum_value(&all.magnitude) / (double)all.samples : INFINITY;
+	return is_known(&all) ? spec_measure_sum_value(&all.magnitude) / (double)all.samples
+			      : INFINITY;
 }
 
 double
@@ -419,9 +395,9 @@ spec_detail_relative(const struct spec_detail_band *band, size_t count)
 {
 	struct spec_detail_band all = join(band, count);
 
-	return is_known(&all)
-		       ? sqrt(ratio(sum_value(&all.square), sum_value(&all.square_a)))
-		       : INFINITY;
+	return is_known(&all) ? sqrt(ratio(spec_measure_sum_value(&all.square),
+					spec_measure_sum_value(&all.square_a)))
+			      : INFINITY;
 }
 
 double
@@ -433,8 +409,9 @@ spec_detail_energy(const struct spec_detail_band *band, const double *weight, si
 	if (!is_known(&all))
 		return INFINITY;
 	for (size_t i = 0; i < count; i++) {
-		a += weight[i] * sum_value(&band[i].a);
-		difference += weight[i] * (sum_value(&band[i].b) - sum_value(&band[i].a));
+		a += weight[i] * spec_measure_sum_value(&band[i].a);
+		difference += weight[i] * (spec_measure_sum_value(&band[i].b) -
+						  spec_measure_sum_value(&band[i].a));
 	}
 	return ratio(difference, a);
 }

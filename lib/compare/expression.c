@@ -56,20 +56,6 @@ static const struct {
 static enum spec_status parse_choice(struct parser *parser, size_t *node);
 static enum spec_status parse_sign(struct parser *parser, size_t *node);
 
-static enum spec_status __attribute__((format(printf, 3, 4)))
-fail(const struct parser *parser, size_t at, const char *format, ...)
-{
-	char message[sizeof parser->error->message];
-	va_list arguments;
-
-	va_start(arguments, format);
-	vsnprintf(message, sizeof message, format, arguments);
-	va_end(arguments);
-	spec_error_set(parser->error, SPEC_EUSAGE, "%s", message);
-	spec_error_point(parser->error, parser->text, at);
-	return SPEC_EUSAGE;
-}
-
 static int
 quoted_length(size_t length)
 {
@@ -84,13 +70,13 @@ fail_expected(const struct parser *parser, const char *what)
 	size_t length = strspn(found, LETTERS DIGITS);
 
 	if (*found == '\0')
-		return fail(
-			parser, parser->at, "expected %s, but the expression ends", what);
+		return spec_error_set_at(parser->error, parser->text, parser->at,
+			"expected %s, but the expression ends", what);
 	if (length == 0) /* one character, which may have several bytes */
 		for (length = 1; ((unsigned char)found[length] & 0xc0) == 0x80;)
 			length++;
-	return fail(parser, parser->at, "expected %s, not '%.*s'", what,
-		quoted_length(length), found);
+	return spec_error_set_at(parser->error, parser->text, parser->at,
+		"expected %s, not '%.*s'", what, quoted_length(length), found);
 }
 
 static void
@@ -143,7 +129,8 @@ add_node(struct parser *parser, const struct spec_node *node, size_t *index)
 	enum spec_status status;
 
 	if (expression->count == SPEC_EXPRESSION_MOST_NODES)
-		return fail(parser, node->at, "the expression has more than %d parts",
+		return spec_error_set_at(parser->error, parser->text, node->at,
+			"the expression has more than %d parts",
 			SPEC_EXPRESSION_MOST_NODES);
 	status = spec_memory_grow(&list, &parser->room, expression->count + 1, sizeof *node,
 		"nodes", parser->error);
@@ -240,10 +227,11 @@ fail_unknown(const struct parser *parser, struct word word)
 			near = spec_nearest_name(name, places, sizeof *places);
 	}
 	if (near)
-		return fail(parser, word.at, "'%.*s' is not known; did you mean '%s'?",
+		return spec_error_set_at(parser->error, parser->text, word.at,
+			"'%.*s' is not known; did you mean '%s'?",
 			quoted_length(word.length), word.text, near);
-	return fail(parser, word.at, "'%.*s' is not known", quoted_length(word.length),
-		word.text);
+	return spec_error_set_at(parser->error, parser->text, word.at,
+		"'%.*s' is not known", quoted_length(word.length), word.text);
 }
 
 /* --- values --- */
@@ -275,7 +263,8 @@ take_channel(struct parser *parser, char **channel)
 	}
 	(*channel)[length] = '\0';
 	if (text[end] == '\0')
-		return fail(parser, parser->at - 1, "a '\"' without another");
+		return spec_error_set_at(parser->error, parser->text, parser->at - 1,
+			"a '\"' without another");
 	parser->at += end + 1;
 	skip_blanks(parser);
 	return take_token(parser, ")") ? SPEC_OK : fail_expected(parser, "')'");
@@ -289,9 +278,9 @@ parse_image(struct parser *parser, struct word word, size_t image, size_t *index
 	enum spec_status status;
 
 	if (image >= parser->images)
-		return fail(parser, word.at, "there is no image '%.*s': %zu %s given",
-			(int)word.length, word.text, parser->images,
-			parser->images == 1 ? "is" : "are");
+		return spec_error_set_at(parser->error, parser->text, word.at,
+			"there is no image '%.*s': %zu %s given", (int)word.length,
+			word.text, parser->images, parser->images == 1 ? "is" : "are");
 	if (take_token(parser, ".")) {
 		node.kind = SPEC_NODE_CHANNEL;
 		status = take_channel(parser, &node.channel);
@@ -431,8 +420,9 @@ parse_number(struct parser *parser, size_t *index)
 	if (is_word(unit, "um"))
 		node.number *= 1e3;
 	else if (unit.length > 0 && !is_word(unit, "nm"))
-		return fail(parser, unit.at, "expected an operator, not '%.*s'",
-			quoted_length(unit.length), unit.text);
+		return spec_error_set_at(parser->error, parser->text, unit.at,
+			"expected an operator, not '%.*s'", quoted_length(unit.length),
+			unit.text);
 	skip_blanks(parser);
 	return add_node(parser, &node, index);
 }
@@ -452,7 +442,8 @@ parse_value(struct parser *parser, size_t *index)
 		return fail_expected(parser, "a value");
 	status = parse_choice(parser, index);
 	if (status == SPEC_OK && parser->text[parser->at] == '\0')
-		return fail(parser, start, "a '(' without a ')'");
+		return spec_error_set_at(
+			parser->error, parser->text, start, "a '(' without a ')'");
 	if (status == SPEC_OK && !take_token(parser, ")"))
 		status = fail_expected(parser, "an operator or ')'");
 	return status;
@@ -463,8 +454,8 @@ parse_value(struct parser *parser, size_t *index)
 static enum spec_status
 fail_too_deep(const struct parser *parser, size_t at)
 {
-	return fail(parser, at, "more than %d parts lie in each other",
-		SPEC_EXPRESSION_DEEPEST);
+	return spec_error_set_at(parser->error, parser->text, at,
+		"more than %d parts lie in each other", SPEC_EXPRESSION_DEEPEST);
 }
 
 static enum spec_status
@@ -543,8 +534,8 @@ parse_level(struct parser *parser, int level, size_t *index)
 		if (!name)
 			break;
 		if (level == COMPARISONS && times++ > 0)
-			return fail(
-				parser, at, "comparisons do not follow one another (&&)");
+			return spec_error_set_at(parser->error, parser->text, at,
+				"comparisons do not follow one another (&&)");
 		operand[0] = *index;
 		status = parse_level(parser, level + 1, &operand[1]);
 		if (status == SPEC_OK)
@@ -611,11 +602,11 @@ check_free(struct parser *parser, struct word word)
 	for (size_t i = 0; places[i].name; i++)
 		taken |= is_word(word, places[i].name);
 	if (find_image(word, &image) && image < parser->images)
-		return fail(
-			parser, word.at, "'%.*s' is an image", (int)word.length, word.text);
+		return spec_error_set_at(parser->error, parser->text, word.at,
+			"'%.*s' is an image", (int)word.length, word.text);
 	if (taken)
-		return fail(parser, word.at, "'%.*s' has a meaning already",
-			(int)word.length, word.text);
+		return spec_error_set_at(parser->error, parser->text, word.at,
+			"'%.*s' has a meaning already", (int)word.length, word.text);
 	return SPEC_OK;
 }
 
@@ -631,7 +622,8 @@ parse_assignment(struct parser *parser, struct word word)
 	if (status != SPEC_OK)
 		return status;
 	if (!variable && parser->variables == MOST_NAMES)
-		return fail(parser, word.at, "more than %d names", MOST_NAMES);
+		return spec_error_set_at(parser->error, parser->text, word.at,
+			"more than %d names", MOST_NAMES);
 	if (!variable)
 		variable = &parser->variable[parser->variables++];
 	*variable = (struct variable){word.text, word.length, node};

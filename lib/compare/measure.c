@@ -39,19 +39,6 @@ spec_measure_clear(struct spec_measure *measure)
 	measure->colour_most.value = -INFINITY;
 }
 
-/* Neumaier 1974: keeps what each addition rounds away. */
-static inline void
-sum_add(struct spec_measure_sum *sum, double value)
-{
-	double total = sum->sum + value;
-
-	if (fabs(sum->sum) >= fabs(value))
-		sum->lost += (sum->sum - total) + value;
-	else
-		sum->lost += (value - total) + sum->sum;
-	sum->sum = total;
-}
-
 /* Adds count numbers, LANES of them at a time, each with what its own sum has lost. */
 SPEC_VECTORISED static void
 sum_add_all(struct spec_measure_sum *sum, const double *restrict value, size_t count)
@@ -70,11 +57,11 @@ sum_add_all(struct spec_measure_sum *sum, const double *restrict value, size_t c
 		}
 	}
 	for (size_t k = 0; k < LANES; k++) {
-		sum_add(sum, lane[k]);
+		spec_measure_sum_add(sum, lane[k]);
 		sum->lost += lost[k];
 	}
 	for (; i < count; i++)
-		sum_add(sum, value[i]);
+		spec_measure_sum_add(sum, value[i]);
 }
 
 static inline double
@@ -100,13 +87,6 @@ largest_of(const double *restrict value, size_t count, double sign)
 	for (size_t k = 0; k < LANES; k++)
 		largest = greater(lane[k], largest);
 	return largest;
-}
-
-/* What is lost beside an infinite sum is NaN and means nothing. */
-static double
-sum_value(const struct spec_measure_sum *sum)
-{
-	return isfinite(sum->sum) ? sum->sum + sum->lost : sum->sum;
 }
 
 SPEC_VECTORISED static void
@@ -522,13 +502,6 @@ spec_measure_row(const struct spec_measure_setup *setup, const float *const *a,
 	}
 }
 
-static void
-sum_join(struct spec_measure_sum *total, const struct spec_measure_sum *row)
-{
-	sum_add(total, row->sum);
-	total->lost += row->lost;
-}
-
 void
 spec_measure_add(struct spec_measure *total, const struct spec_measure *row)
 {
@@ -548,10 +521,10 @@ spec_measure_add(struct spec_measure *total, const struct spec_measure *row)
 	total->nonfinite_pixels += row->nonfinite_pixels;
 	if (row->largest_a > total->largest_a)
 		total->largest_a = row->largest_a;
-	sum_join(&total->square, &row->square);
-	sum_join(&total->angle, &row->angle);
-	sum_join(&total->fit, &row->fit);
-	sum_join(&total->colour, &row->colour);
+	spec_measure_sum_join(&total->square, &row->square);
+	spec_measure_sum_join(&total->angle, &row->angle);
+	spec_measure_sum_join(&total->fit, &row->fit);
+	spec_measure_sum_join(&total->colour, &row->colour);
 	if (row->angle_most.value > total->angle_most.value)
 		total->angle_most = row->angle_most;
 	if (row->fit_least.value < total->fit_least.value)
@@ -570,7 +543,7 @@ comparable(const struct spec_measure *measure)
 static double
 mean(const struct spec_measure *measure, const struct spec_measure_sum *sum)
 {
-	return sum_value(sum) / (double)measure->pixels;
+	return spec_measure_sum_value(sum) / (double)measure->pixels;
 }
 
 double
@@ -578,7 +551,7 @@ spec_measure_rmse(const struct spec_measure *measure)
 {
 	if (!comparable(measure))
 		return INFINITY;
-	return sqrt(sum_value(&measure->square) / (double)measure->samples);
+	return sqrt(spec_measure_sum_value(&measure->square) / (double)measure->samples);
 }
 
 double

@@ -14,6 +14,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "compare/sum.h"
+
 struct spec_measure_setup {
 	size_t bands;             /* per pixel, >= 1 */
 	int want_angle;           /* spectral angle and goodness of fit */
@@ -21,11 +23,6 @@ struct spec_measure_setup {
 	                             differences are wanted; else null */
 	double white_xyz[3];      /* each > 0, on the scale of the weights; for colour */
 	double peak;              /* of psnr; 0: the largest finite magnitude in A */
-};
-
-/* A sum with what its rounding lost (Neumaier 1974). */
-struct spec_measure_sum {
-	double sum, lost;
 };
 
 struct spec_measure_place {

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/number.h"
+#include "base/triple.h"
 
 #define PI 3.14159265358979323846
 #define MOST_HEIGHT 65536
@@ -113,21 +114,6 @@ static const struct face {
 
 enum { FACES = sizeof faces / sizeof *faces, BACK = 2 };
 
-static double
-dot(const double a[3], const double b[3])
-{
-	return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-static void
-normalise(double v[3])
-{
-	double length = sqrt(dot(v, v));
-
-	for (int i = 0; i < 3; i++)
-		v[i] /= length;
-}
-
 /* A direction through a place on a face, both -1 to 1: a to the right, b up. */
 static void
 through_face(const struct face *face, double a, double b, double direction[3])
@@ -159,7 +145,7 @@ cross_direction(
 			through_face(&faces[i], -a, -b, direction);
 		else
 			through_face(&faces[i], a, b, direction);
-		normalise(direction);
+		spec_triple_normalise(direction);
 		return 1;
 	}
 	return 0;
@@ -173,12 +159,13 @@ face_of(const double direction[3], double *a, double *b)
 	double ahead;
 
 	for (size_t i = 1; i < FACES; i++) {
-		if (dot(direction, faces[i].ahead) > dot(direction, faces[best].ahead))
+		if (spec_triple_dot(direction, faces[i].ahead) >
+			spec_triple_dot(direction, faces[best].ahead))
 			best = i;
 	}
-	ahead = dot(direction, faces[best].ahead);
-	*a = dot(direction, faces[best].right) / ahead;
-	*b = dot(direction, faces[best].up) / ahead;
+	ahead = spec_triple_dot(direction, faces[best].ahead);
+	*a = spec_triple_dot(direction, faces[best].right) / ahead;
+	*b = spec_triple_dot(direction, faces[best].up) / ahead;
 	return best;
 }
 

@@ -33,20 +33,6 @@ struct word {
 	size_t at, length; /* length 0: there is none */
 };
 
-static enum spec_status __attribute__((format(printf, 3, 4)))
-fail(const struct parser *parser, size_t at, const char *format, ...)
-{
-	char message[sizeof parser->error->message];
-	va_list arguments;
-
-	va_start(arguments, format);
-	vsnprintf(message, sizeof message, format, arguments);
-	va_end(arguments);
-	spec_error_set(parser->error, SPEC_EUSAGE, "%s", message);
-	spec_error_point(parser->error, parser->text, at);
-	return SPEC_EUSAGE;
-}
-
 /* Turns an error of another module into one at a byte of the text. */
 static enum spec_status
 fail_again(const struct parser *parser, size_t at)
@@ -77,14 +63,17 @@ fail_expected(const struct parser *parser, const char *what)
 	size_t length = strcspn(found, DELIMITERS);
 
 	if (*found == '\0' && parser->depth > 0)
-		return fail(
-			parser, parser->group[parser->depth - 1].at, "a '(' without a ')'");
+		return spec_error_set_at(parser->error, parser->text,
+			parser->group[parser->depth - 1].at, "a '(' without a ')'");
 	if (*found == ')' && parser->depth == 0)
-		return fail(parser, parser->at, "a ')' without a '('");
+		return spec_error_set_at(
+			parser->error, parser->text, parser->at, "a ')' without a '('");
 	if (*found == '\0')
-		return fail(parser, parser->at, "expected %s, but the stack ends", what);
-	return fail(parser, parser->at, "expected %s, not '%.*s'", what,
-		length ? quoted_length(found, length) : 1, found);
+		return spec_error_set_at(parser->error, parser->text, parser->at,
+			"expected %s, but the stack ends", what);
+	return spec_error_set_at(parser->error, parser->text, parser->at,
+		"expected %s, not '%.*s'", what, length ? quoted_length(found, length) : 1,
+		found);
 }
 
 static void
@@ -126,7 +115,8 @@ take_name(struct parser *parser, struct word *name)
 		size_t close = end + strcspn(text + end, ")|");
 
 		if (text[close] != ')')
-			return fail(parser, end, "a '(' without a ')'");
+			return spec_error_set_at(
+				parser->error, parser->text, end, "a '(' without a ')'");
 		end = close + 1;
 		end += strcspn(text + end, DELIMITERS);
 	}
@@ -204,8 +194,8 @@ add_layer(struct parser *parser, size_t medium, double thickness_nm)
 static enum spec_status
 fail_too_many(const struct parser *parser, size_t at)
 {
-	return fail(
-		parser, at, "the stack has more than %d layers", SPEC_RECIPE_MOST_LAYERS);
+	return spec_error_set_at(parser->error, parser->text, at,
+		"the stack has more than %d layers", SPEC_RECIPE_MOST_LAYERS);
 }
 
 static enum spec_status
@@ -221,8 +211,8 @@ parse_thickness(const struct parser *parser, struct word word, double *thickness
 	if (status != SPEC_OK)
 		status = fail_again(parser, word.at);
 	else if (*thickness_nm > SPEC_RECIPE_THICKEST_NM)
-		status =
-			fail(parser, word.at, "the thickness is more than 1 m: '%s'", text);
+		status = spec_error_set_at(parser->error, parser->text, word.at,
+			"the thickness is more than 1 m: '%s'", text);
 	free(text);
 	return status;
 }
@@ -234,9 +224,11 @@ set_varied(struct parser *parser, size_t at)
 	struct spec_recipe *recipe = parser->recipe;
 
 	if (parser->depth > 0)
-		return fail(parser, at, "a layer in a group cannot have the thickness *");
+		return spec_error_set_at(parser->error, parser->text, at,
+			"a layer in a group cannot have the thickness *");
 	if (recipe->varied != 0)
-		return fail(parser, at, "only one layer can have the thickness *");
+		return spec_error_set_at(parser->error, parser->text, at,
+			"only one layer can have the thickness *");
 	recipe->varied = recipe->count;
 	recipe->varied_at = at;
 	return SPEC_OK;
@@ -263,7 +255,7 @@ take_layer(struct parser *parser, int *ended)
 	if (word.length == 0)
 		return fail_expected(parser, "a thickness");
 	if (parser->depth == 0 && parser->text[parser->at] == '\0')
-		return fail(parser, word.at,
+		return spec_error_set_at(parser->error, parser->text, word.at,
 			"the last medium, the substrate, has no thickness");
 	if (parser->recipe->count > SPEC_RECIPE_MOST_LAYERS)
 		return fail_too_many(parser, start);
@@ -278,8 +270,8 @@ static enum spec_status
 open_group(struct parser *parser)
 {
 	if (parser->depth == SPEC_RECIPE_DEEPEST)
-		return fail(parser, parser->at, "more than %d groups lie in each other",
-			SPEC_RECIPE_DEEPEST);
+		return spec_error_set_at(parser->error, parser->text, parser->at,
+			"more than %d groups lie in each other", SPEC_RECIPE_DEEPEST);
 	parser->group[parser->depth++] = (struct group){parser->at, parser->recipe->count};
 	take_byte(parser, '(');
 	return SPEC_OK;
@@ -343,7 +335,7 @@ take_ambient(struct parser *parser)
 	if (status != SPEC_OK || take_byte(parser, '|'))
 		return status;
 	if (strcspn(parser->text + parser->at, DELIMITERS) > 0)
-		return fail(parser, parser->at,
+		return spec_error_set_at(parser->error, parser->text, parser->at,
 			"expected '|': the first medium, the ambient, has no thickness");
 	return fail_expected(parser, "'|'");
 }

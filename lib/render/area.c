@@ -96,13 +96,6 @@ spec_area_free(struct spec_area *area)
 	*area = (struct spec_area){0};
 }
 
-/* What the numbers are in size that a point is computed from. */
-static double
-size_of(struct spec_vector v)
-{
-	return fabs(v.x) + fabs(v.y) + fabs(v.z);
-}
-
 /*
  * The triangle at a share of the whole area, 0 to 1. Which half it is in is chance: a product
  * does not make the processor guess.
@@ -137,7 +130,7 @@ sample_mesh(const struct spec_area *area, const double pair[2], double number,
 	*point = spec_vector_along(
 		spec_vector_along(at[0], b, root * (1 - pair[1])), c, root * pair[1]);
 	*normal = area->facets->normal[triangle];
-	return OFF * (size_of(*point) + size_of(b) + size_of(c));
+	return OFF * (spec_vector_size(*point) + spec_vector_size(b) + spec_vector_size(c));
 }
 
 static double
@@ -151,7 +144,7 @@ sample_disk(const struct spec_area *area, const double pair[2], struct spec_vect
 	*point = spec_through_point(shape->world.m,
 		(struct spec_vector){r * cos(angle), r * sin(angle), shape->height});
 	*normal = spec_through_normal(&shape->world, (struct spec_vector){0, 0, 1});
-	return THIN_OFF * (size_of(*point) + outer);
+	return THIN_OFF * (spec_vector_size(*point) + outer);
 }
 
 /* 1 - cosine of the cone that a sphere fills; 2, all directions, from within and on it. */

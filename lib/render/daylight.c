@@ -208,12 +208,6 @@ share_directions(struct spec_daylight *daylight, struct spec_error *error)
 	return SPEC_OK;
 }
 
-static struct spec_vector
-vector_of(const double v[3])
-{
-	return (struct spec_vector){v[0], v[1], v[2]};
-}
-
 enum spec_status
 spec_daylight_make(struct spec_daylight *daylight, const struct spec_scene_daylight *light,
 	const struct spec_bands_grid *bands, struct spec_error *error)
@@ -222,14 +216,14 @@ spec_daylight_make(struct spec_daylight *daylight, const struct spec_scene_dayli
 
 	*daylight =
 		(struct spec_daylight){.bands = bands->count, .has_sun = light->has_sun};
-	daylight->axes = (struct spec_frame){
-		vector_of(light->east), vector_of(light->north), vector_of(light->up)};
+	daylight->axes = (struct spec_frame){spec_vector_of(light->east),
+		spec_vector_of(light->north), spec_vector_of(light->up)};
 	status = spec_dome_make(
 		&light->sun, &light->sunlight.atmosphere, &daylight->dome, error);
 	if (status == SPEC_OK) {
 		daylight->sun_sr = spec_dome_disc_sr(&daylight->dome);
-		daylight->sun =
-			spec_frame_about(spec_vector_unit(vector_of(daylight->dome.sun)));
+		daylight->sun = spec_frame_about(
+			spec_vector_unit(spec_vector_of(daylight->dome.sun)));
 		status = share_bands(daylight, bands, error);
 	}
 	if (status == SPEC_OK)

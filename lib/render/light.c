@@ -35,12 +35,6 @@ struct spec_lights {
 	double world_radius;
 };
 
-static struct spec_vector
-vector_of(const double v[3])
-{
-	return (struct spec_vector){v[0], v[1], v[2]};
-}
-
 /* Whether the infinite light is another one from each direction; its value is a scale then. */
 static int
 has_picture(const struct spec_lights *lights)
@@ -318,12 +312,12 @@ reach(const struct spec_lights *lights, const struct emitter *emitter,
 	struct spec_vector point, struct spec_vector *direction, double *distance)
 {
 	const struct spec_scene_light *light = &lights->scene->light[emitter->light];
-	struct spec_vector to = vector_of(light->from);
+	struct spec_vector to = spec_vector_of(light->from);
 	double square;
 
 	if (emitter->kind == SPEC_SCENE_DISTANT) {
-		*direction =
-			spec_vector_unit(spec_vector_subtract(to, vector_of(light->to)));
+		*direction = spec_vector_unit(
+			spec_vector_subtract(to, spec_vector_of(light->to)));
 		*distance = INFINITY;
 		return 1;
 	}

@@ -9,6 +9,12 @@ struct spec_vector {
 };
 
 static inline struct spec_vector
+spec_vector_of(const double v[3])
+{
+	return (struct spec_vector){v[0], v[1], v[2]};
+}
+
+static inline struct spec_vector
 spec_vector_add(struct spec_vector a, struct spec_vector b)
 {
 	return (struct spec_vector){a.x + b.x, a.y + b.y, a.z + b.z};
@@ -50,6 +56,13 @@ spec_vector_cross(struct spec_vector a, struct spec_vector b)
 {
 	return (struct spec_vector){
 		a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+/* The sum of the magnitudes: what the numbers are in size that a point is computed from. */
+static inline double
+spec_vector_size(struct spec_vector a)
+{
+	return fabs(a.x) + fabs(a.y) + fabs(a.z);
 }
 
 static inline double

@@ -343,12 +343,6 @@ embree_ray(const struct spec_ray *ray, double distance)
 		.mask = (unsigned)-1};
 }
 
-static double
-size_of(struct spec_vector v)
-{
-	return fabs(v.x) + fabs(v.y) + fabs(v.z);
-}
-
 static void
 find_on_quadric(const struct spec_scene_shape *shape, const struct spec_ray *ray,
 	struct spec_hit *hit)
@@ -364,7 +358,7 @@ find_on_quadric(const struct spec_scene_shape *shape, const struct spec_ray *ray
 		local.z = shape->height;
 	hit->point = spec_through_point(shape->world.m, local);
 	hit->normal = hit->shading = spec_through_normal(&shape->world, normal);
-	hit->size = size_of(hit->point) + fabs(shape->world.m[0][3]) +
+	hit->size = spec_vector_size(hit->point) + fabs(shape->world.m[0][3]) +
 		    fabs(shape->world.m[1][3]) + fabs(shape->world.m[2][3]);
 }
 
@@ -391,8 +385,9 @@ find_on_mesh(const struct spec_scene_shape *shape, const struct spec_facets *fac
 	hit->weight[1] = v;
 	hit->point = spec_vector_along(
 		spec_vector_along(spec_vector_scale(at[0], 1 - u - v), at[1], u), at[2], v);
-	hit->size = size_of(hit->point) + size_of(spec_vector_subtract(at[1], at[0])) +
-		    size_of(spec_vector_subtract(at[2], at[0]));
+	hit->size = spec_vector_size(hit->point) +
+		    spec_vector_size(spec_vector_subtract(at[1], at[0])) +
+		    spec_vector_size(spec_vector_subtract(at[2], at[0]));
 	hit->normal = hit->shading = facets->normal[found->primID];
 	if (shape->normal)
 		hit->shading = spec_through_normal(&shape->world,

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "base/memory.h"
+#include "base/triple.h"
 #include "place/coordinates.h"
 #include "place/instant.h"
 #include "place/sunlight.h"
@@ -76,31 +77,6 @@ find_sun(const struct spec_arguments *arguments, struct spec_scene_daylight *day
 
 /* ---- axes ---- */
 
-static double
-dot(const double a[3], const double b[3])
-{
-	return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-static void
-cross(const double a[3], const double b[3], double result[3])
-{
-	for (int i = 0; i < 3; i++)
-		result[i] =
-			a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
-}
-
-/* Whether there is a direction to make a unit vector of. */
-static int
-normalise(double v[3])
-{
-	double length = hypot(hypot(v[0], v[1]), v[2]);
-
-	for (int i = 0; i < 3; i++)
-		v[i] /= length;
-	return length > 0 && length < INFINITY;
-}
-
 /* A direction of a space as a unit vector in the world. */
 static enum spec_status
 read_direction(const struct spec_arguments *arguments, const char *name,
@@ -110,8 +86,8 @@ read_direction(const struct spec_arguments *arguments, const char *name,
 	enum spec_status status = spec_arguments_numbers(arguments, name, 3, local);
 
 	for (int i = 0; i < 3; i++)
-		v[i] = dot(world->m[i], local);
-	if (status == SPEC_OK && !normalise(v))
+		v[i] = spec_triple_dot(world->m[i], local);
+	if (status == SPEC_OK && !spec_triple_normalise(v))
 		status =
 			spec_arguments_fail(arguments, spec_arguments_find(arguments, name),
 				SPEC_ERANGE, "is no direction: it has no length");
@@ -123,8 +99,8 @@ is_mirrored(const struct spec_transform *transform)
 {
 	double x_by_y[3];
 
-	cross(transform->m[0], transform->m[1], x_by_y);
-	return dot(x_by_y, transform->m[2]) < 0;
+	spec_triple_cross(transform->m[0], transform->m[1], x_by_y);
+	return spec_triple_dot(x_by_y, transform->m[2]) < 0;
 }
 
 static enum spec_status
@@ -141,8 +117,8 @@ read_axes(const struct spec_arguments *arguments, const struct spec_transform *w
 		status = read_direction(arguments, "north", world, north);
 	if (status != SPEC_OK)
 		return status;
-	cross(up, north, east);
-	length = sqrt(dot(east, east));
+	spec_triple_cross(up, north, east);
+	length = sqrt(spec_triple_dot(east, east));
 	if (!(length > SMALLEST))
 		return spec_arguments_fail(
 			arguments, NULL, SPEC_ERANGE, "has up and north in one line");
@@ -150,7 +126,7 @@ read_axes(const struct spec_arguments *arguments, const struct spec_transform *w
 		length = -length;
 	for (int i = 0; i < 3; i++)
 		east[i] /= length;
-	cross(east, up, north);
+	spec_triple_cross(east, up, north);
 	for (int i = 0; i < 3 && length < 0; i++)
 		north[i] = -north[i];
 	return SPEC_OK;

@@ -135,13 +135,6 @@ parse_whole(struct spec_tokens *tokens, const struct spec_parameter *parameter,
 	return SPEC_OK;
 }
 
-static int
-is_word(const struct spec_token *token, const char *word)
-{
-	return token->kind == SPEC_TOKEN_WORD && token->length == strlen(word) &&
-	       strncmp(token->text, word, token->length) == 0;
-}
-
 static enum spec_status
 parse_number(struct spec_tokens *tokens, const struct spec_parameter *parameter,
 	const struct spec_token *token, double *number)
@@ -149,8 +142,8 @@ parse_number(struct spec_tokens *tokens, const struct spec_parameter *parameter,
 	if (parameter->type == SPEC_INTEGER)
 		return parse_whole(tokens, parameter, token, number);
 	if (parameter->type == SPEC_BOOL) {
-		*number = is_word(token, "true");
-		return *number == 1 || is_word(token, "false")
+		*number = spec_token_is_word(token, "true");
+		return *number == 1 || spec_token_is_word(token, "false")
 			       ? SPEC_OK
 			       : fail_value(tokens, parameter, token,
 					 "true or false without quotes");

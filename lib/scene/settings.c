@@ -323,13 +323,6 @@ find_option(const char *name)
 	return NULL;
 }
 
-static int
-is_word(const struct spec_token *token, const char *word)
-{
-	return token->kind == SPEC_TOKEN_WORD && token->length == strlen(word) &&
-	       strncmp(token->text, word, token->length) == 0;
-}
-
 static enum spec_status
 set_seed(struct spec_parser *parser, const struct spec_token *token)
 {
@@ -368,12 +361,13 @@ spec_parser_option(struct spec_parser *parser, struct spec_statement *statement)
 			nearest ? "\"?" : "");
 	if (option->kind == OPTION_SEED)
 		return set_seed(parser, &value);
-	if (is_word(&value, "false"))
+	if (spec_token_is_word(&value, "false"))
 		return SPEC_OK;
 	if (option->kind == OPTION_MATTERS)
 		return spec_parser_fail(parser, statement,
-			is_word(&value, "true") ? SPEC_EUNSUPPORTED : SPEC_EFORMAT,
-			is_word(&value, "true")
+			spec_token_is_word(&value, "true") ? SPEC_EUNSUPPORTED
+							   : SPEC_EFORMAT,
+			spec_token_is_word(&value, "true")
 				? "Option \"%.60s\" is not supported"
 				: "Option \"%.60s\" is neither true nor false",
 			statement->name);

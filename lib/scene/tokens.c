@@ -348,6 +348,13 @@ fail_token(struct spec_tokens *tokens, const struct spec_token *token, const cha
 		what);
 }
 
+int
+spec_token_is_word(const struct spec_token *token, const char *word)
+{
+	return token->kind == SPEC_TOKEN_WORD && token->length == strlen(word) &&
+	       strncmp(token->text, word, token->length) == 0;
+}
+
 enum spec_status
 spec_tokens_want(struct spec_tokens *tokens, enum spec_token_kind kind, const char *what,
 	struct spec_token *token)

@@ -34,6 +34,9 @@ struct spec_token {
 	struct spec_scene_place place;
 };
 
+/* Whether it is this word, such as "true". */
+int spec_token_is_word(const struct spec_token *token, const char *word);
+
 struct spec_tokens {
 	struct spec_scene *scene; /* takes the names of the files */
 	struct spec_error *error; /* of whoever reads; may be null */

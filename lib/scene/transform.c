@@ -3,6 +3,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/triple.h"
+
 #define DEGREE 0.017453292519943295769 /* [rad] */
 /* Of a determinant beside the product of its columns' lengths: below, it counts as 0. */
 #define SINGULAR 1e-13
@@ -95,37 +97,6 @@ spec_transform_scale(
 	return append(transform, &scale, error);
 }
 
-static double
-dot(const double a[3], const double b[3])
-{
-	return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-static void
-cross(const double a[3], const double b[3], double result[3])
-{
-	for (int i = 0; i < 3; i++)
-		result[i] =
-			a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
-}
-
-/* 0: the vector has no direction. */
-static int
-normalise(double vector[3])
-{
-	double most = fmax(fabs(vector[0]), fmax(fabs(vector[1]), fabs(vector[2])));
-	double length;
-
-	if (!(most > 0) || !isfinite(most))
-		return 0;
-	for (int i = 0; i < 3; i++)
-		vector[i] /= most; /* no square can overflow now */
-	length = sqrt(dot(vector, vector));
-	for (int i = 0; i < 3; i++)
-		vector[i] /= length;
-	return 1;
-}
-
 /* Rodrigues' formula. */
 enum spec_status
 spec_transform_rotate(struct spec_transform *transform, double angle_deg,
@@ -135,7 +106,7 @@ spec_transform_rotate(struct spec_transform *transform, double angle_deg,
 	double turn = fmod(angle_deg, 360) * DEGREE;
 	double sine = sin(turn), cosine = cos(turn), a[3] = {axis[0], axis[1], axis[2]};
 
-	if (!normalise(a))
+	if (!spec_triple_normalise(a))
 		return spec_error_set(
 			error, SPEC_ERANGE, "the axis of a rotation has no length");
 	for (int i = 0; i < 3; i++) {
@@ -160,21 +131,22 @@ spec_transform_look_at(struct spec_transform *transform, const double eye[3],
 
 	for (int i = 0; i < 3; i++)
 		axis[2][i] = look[i] - eye[i];
-	if (!normalise(axis[2]))
+	if (!spec_triple_normalise(axis[2]))
 		return spec_error_set(
 			error, SPEC_ERANGE, "the eye is where the camera looks");
-	if (!normalise(upwards))
+	if (!spec_triple_normalise(upwards))
 		return spec_error_set(
 			error, SPEC_ERANGE, "the direction upwards has no length");
-	cross(upwards, axis[2], axis[0]);
-	if (!(dot(axis[0], axis[0]) > SINGULAR) || !normalise(axis[0]))
+	spec_triple_cross(upwards, axis[2], axis[0]);
+	if (!(spec_triple_dot(axis[0], axis[0]) > SINGULAR) ||
+		!spec_triple_normalise(axis[0]))
 		return spec_error_set(
 			error, SPEC_ERANGE, "the camera looks along the direction upwards");
-	cross(axis[2], axis[0], axis[1]);
+	spec_triple_cross(axis[2], axis[0], axis[1]);
 	for (int i = 0; i < 3; i++) {
 		for (int j = 0; j < 3; j++)
 			view.m[i][j] = view.inverse[j][i] = axis[i][j];
-		view.m[i][3] = -dot(axis[i], eye);
+		view.m[i][3] = -spec_triple_dot(axis[i], eye);
 		view.inverse[i][3] = eye[i];
 	}
 	return append(transform, &view, error);
@@ -193,12 +165,12 @@ invert(struct spec_transform *transform)
 		for (int i = 0; i < 3; i++)
 			column[j][i] = transform->m[i][j];
 		length[j] = hypot(hypot(column[j][0], column[j][1]), column[j][2]);
-		if (!normalise(column[j]))
+		if (!spec_triple_normalise(column[j]))
 			return 0;
 	}
 	for (int j = 0; j < 3; j++)
-		cross(column[(j + 1) % 3], column[(j + 2) % 3], row[j]);
-	determinant = dot(column[0], row[0]);
+		spec_triple_cross(column[(j + 1) % 3], column[(j + 2) % 3], row[j]);
+	determinant = spec_triple_dot(column[0], row[0]);
 	if (!(fabs(determinant) > SINGULAR))
 		return 0;
 	for (int i = 0; i < 3; i++) {
@@ -262,5 +234,5 @@ spec_transform_point(
 	double copy[3] = {point[0], point[1], point[2]};
 
 	for (int i = 0; i < 3; i++)
-		result[i] = dot(transform->m[i], copy) + transform->m[i][3];
+		result[i] = spec_triple_dot(transform->m[i], copy) + transform->m[i][3];
 }
