@@ -197,7 +197,7 @@ take_colours(struct job *job, const char *name, const char *value, int *known,
 	} else {
 		status = take_sums(job, name, value, known, error);
 	}
-	if (*known)
+	if (*known && strcmp(name, "verbose") != 0)
 		job->of_colours = name;
 	return status;
 }
@@ -587,6 +587,9 @@ show_false(struct cli *cli, struct job *job, struct spec_reader *reader,
 	status = paint(job, reader, &seen, &error);
 	cli_progress_end(progress);
 	cli_check(cli, status, &error);
+	if (job->verbose)
+		fprintf(stderr, "%s: %s: %s: the scale is %g..%g\n", program.name, name,
+			view.label, seen.low, seen.high);
 	warn_nonfinite(cli, job, name, seen.nonfinite, seen.first_x, seen.first_y);
 	job->painted.view = NULL;
 	spec_view_free(&view);

@@ -45,6 +45,8 @@ first='68 1 84' last='253 231 37' quarter='59 82 139'
   cmp auto.ppm given.ppm
   spec2rgb --band .55um --range auto x.exr -o again.ppm
   cmp auto.ppm again.ppm
+  spec2rgb --verbose --band 550 x.exr -o again.ppm 2>err
+  [ "$(cat err)" = 'spec2rgb: x.exr: 550 nm: the scale is 2..12' ] || complain "$(cat err)"
   spec2rgb --band 550 --range 2..10 x.exr -o narrow.ppm
   is "$quarter" narrow.ppm 2 0
   is "$last" narrow.ppm 8 0
