@@ -333,12 +333,13 @@ see_patch(const char *name, const struct spec_curve *light, double xyz[3])
 static void
 compare_charts(const char *light_name, int by_lab)
 {
+	const size_t count = COUNT(checker);
 	struct spec_curve light;
 	double white[3], sum = 0;
 
 	assert_int_equal(spec_lookup_light(light_name, &light, NULL), SPEC_OK);
 	assert_int_equal(spec_observer_white(&observer, &light, white, NULL), SPEC_OK);
-	for (size_t i = 0; i < COUNT(checker); i++) {
+	for (size_t i = 0; i < count; i++) {
 		const double *p = checker[i].xyy;
 		double xyz[3], seen[3], wanted[3], difference;
 		double told[3] = {
@@ -352,7 +353,7 @@ compare_charts(const char *light_name, int by_lab)
 		near(difference, 0, 2, checker[i].name);
 		sum += difference;
 	}
-	near(sum / (double)COUNT(checker), 0, 1, light_name);
+	near(sum / (double)count, 0, 1, light_name);
 	spec_curve_free(&light);
 }
 
