@@ -62,7 +62,7 @@ check_image(const struct spec_reader *reader, const struct spec_bands_grid *band
 			"%s: surroundings need bands of light (S0)", name);
 	if (width != 2 * height)
 		return spec_error_set(error, SPEC_EUNSUPPORTED,
-			"%s: %zu x %zu pixels: surroundings are twice as wide as high (latitude and longitude)",
+			"%s: %zu x %zu pixels: surroundings are twice as wide as high (latitude and longitude; specconvert --projection latlong)",
 			name, width, height);
 	if ((double)width * (double)height * (double)bands->count * sizeof(float) >
 		(double)settings->limits.memory)
