@@ -1021,6 +1021,18 @@ close() {
   done
 }
 
+@test "--absolute: radiance per band, per nm and in bins have one luminance" {
+  # 0.5 W m^-2 sr^-1 nm^-1 from 500 to 600 nm; of bands of 10 nm, 5 in each.
+  spectral bins.exr --grid 505:595:10 --bins --pattern constant:0.5
+  spectral each.exr --grid 505:595:10 --bins --quantity 'radiance per band' --pattern constant:5
+  wanted=$(awk '/^5[0-9][0-9] |^600 / { y = $3; if ($1 == 500 || $1 == 600) y /= 2; sum += y } END { printf "%.6f", 683 * 0.5 * sum }' \
+    "$ROOT/spectra/cmf/cie1931.spd")
+  for image in bins each; do
+    close 2e-6 "$wanted" "$(xyz $image.exr -q --absolute | cut -d ' ' -f 2)"
+    close 2e-3 "$wanted" "$(xyz $image.exr -q --absolute --rule grid | cut -d ' ' -f 2)"
+  done
+}
+
 @test "--absolute: reflectance under a light of known radiance" {
   spectral half.exr --kind T --grid 360:830:5 --pattern constant:0.5
   fails_cleanly spec2rgb --absolute half.exr -o x.exr

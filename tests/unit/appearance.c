@@ -235,13 +235,14 @@ test_appearance_of_lights(void **state)
 	static const struct {
 		const char *name;
 		double x, y, xy_tolerance, cct_k, cct_tolerance, duv, duv_tolerance;
+		double u, v; /* u', v' of the same table; 0: not there */
 	} known[] = {
-		{"D65", .31272, .32903, 2e-5, 6504, 2, .0032, 5e-5},
-		{"D50", .34567, .35851, 2e-5, 5003, 2, .0032, 1e-4},
-		{"A", .44758, .40745, 2e-5, 2856, 1, 0, 2e-5},
-		{"F2", .3721, .3751, 3e-4, 4230, 15, .0018, 2e-4},
-		{"F7", .3129, .3292, 3e-4, 6500, 15, .0032, 2e-4},
-		{"F11", .3805, .3769, 3e-4, 4000, 15, .0001, 2e-4},
+		{"D65", .31272, .32903, 2e-5, 6504, 2, .0032, 5e-5, .1978, .4683},
+		{"D50", .34567, .35851, 2e-5, 5003, 2, .0032, 1e-4, .2092, .4881},
+		{"A", .44758, .40745, 2e-5, 2856, 1, 0, 2e-5, .2560, .5243},
+		{"F2", .3721, .3751, 3e-4, 4230, 15, .0018, 2e-4, 0, 0},
+		{"F7", .3129, .3292, 3e-4, 6500, 15, .0032, 2e-4, 0, 0},
+		{"F11", .3805, .3769, 3e-4, 4000, 15, .0001, 2e-4, 0, 0},
 	};
 	struct spec_viewing viewing;
 	struct spec_appearance found;
@@ -260,6 +261,10 @@ test_appearance_of_lights(void **state)
 		near(found.xyz[1], 100, 1e-9, name);
 		near(found.xy[0], known[i].x, known[i].xy_tolerance, name);
 		near(found.xy[1], known[i].y, known[i].xy_tolerance, name);
+		if (known[i].u > 0) {
+			near(found.uv[0], known[i].u, 6e-5, name);
+			near(found.uv[1], known[i].v, 6e-5, name);
+		}
 		near(found.cct_k, known[i].cct_k, known[i].cct_tolerance, name);
 		near(found.duv, known[i].duv, known[i].duv_tolerance, name);
 		near(found.lab[0], 100, 1e-9, name);
