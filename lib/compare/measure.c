@@ -305,13 +305,17 @@ pass_bands(struct chunk *chunk)
 }
 
 /* A float's square never overflows a double: only what is not finite spoils a sum. */
-static int
+SPEC_VECTORISED static int
 squares_spoiled(const struct chunk *chunk)
 {
-	for (size_t i = 0; i < chunk->n; i++)
-		if (!isfinite(chunk->aa[i] + chunk->bb[i]))
-			return 1;
-	return 0;
+	int spoiled = 0;
+
+	for (size_t i = 0; i < chunk->n; i++) {
+		double both = chunk->aa[i] + chunk->bb[i];
+
+		spoiled |= !(both - both == 0);
+	}
+	return spoiled;
 }
 
 static void
@@ -325,9 +329,8 @@ open_chunk(struct chunk *chunk, int y, struct spec_measure *row)
 		count_nonfinite(chunk, y, row);
 		pass_bands(chunk);
 	}
-	for (size_t i = 0; i < chunk->n; i++)
-		if (chunk->largest[i] > (double)row->largest_a)
-			row->largest_a = (float)chunk->largest[i];
+	row->largest_a = (float)greater(
+		largest_of(chunk->largest, chunk->n, 1), (double)row->largest_a);
 }
 
 /* In one loop the compiler would take an arc only where it is wanted, one by one. */
@@ -376,26 +379,41 @@ pass_units(struct chunk *chunk)
 	find_angles(chunk);
 }
 
+/* 1 where the XYZ are the same, else 0. */
+SPEC_VECTORISED static void
+find_same(const struct chunk *restrict chunk, double *restrict same)
+{
+	const double *x = chunk->xyz_a, *y = x + CHUNK, *z = y + CHUNK;
+	const double *u = chunk->xyz_b, *v = u + CHUNK, *w = v + CHUNK;
+
+	for (size_t i = 0; i < chunk->n; i++)
+		same[i] = (x[i] == u[i]) & (y[i] == v[i]) & (z[i] == w[i]) ? 1 : 0;
+}
+
 /* Of the same XYZ no difference, whatever they are; a NaN could pass a tolerance. */
+SPEC_VECTORISED static void
+settle(const double *restrict same, size_t count, double *restrict difference)
+{
+	for (size_t i = 0; i < count; i++) {
+		double known = difference[i] <= DBL_MAX ? difference[i] : INFINITY;
+
+		difference[i] = same[i] > 0 ? 0 : known;
+	}
+}
+
 static void
 find_colours(struct chunk *chunk)
 {
 	double *const a[3] = {chunk->xyz_a, chunk->xyz_a + CHUNK, chunk->xyz_a + 2 * CHUNK};
 	double *const b[3] = {chunk->xyz_b, chunk->xyz_b + CHUNK, chunk->xyz_b + 2 * CHUNK};
-	unsigned char same[CHUNK] = {0};
+	double same[CHUNK];
 
-	for (size_t i = 0; i < chunk->n; i++)
-		same[i] =
-			(a[0][i] == b[0][i]) & (a[1][i] == b[1][i]) & (a[2][i] == b[2][i]);
+	find_same(chunk, same);
 	spec_lab_row(chunk->setup->white_xyz, a, chunk->n);
 	spec_lab_row(chunk->setup->white_xyz, b, chunk->n);
 	spec_difference_ciede2000_row((const double *const *)a, (const double *const *)b,
 		chunk->n, chunk->colour);
-	for (size_t i = 0; i < chunk->n; i++) {
-		if (!(chunk->colour[i] <= DBL_MAX))
-			chunk->colour[i] = INFINITY;
-		chunk->colour[i] = same[i] ? 0 : chunk->colour[i];
-	}
+	settle(same, chunk->n, chunk->colour);
 }
 
 /* The first of the values, times sign, that is the most of them, if it is above the extreme. */
