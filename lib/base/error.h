@@ -21,8 +21,8 @@ enum spec_status {
 struct spec_error {
 	enum spec_status status;
 	char message[1024]; /* one line, lower case, no full stop */
-	char place
-		[256]; /* "", or two lines: what the user wrote, and a caret under the fault */
+	/* "", or two lines: what the user wrote, and a caret under the fault. */
+	char place[256];
 };
 
 /* Replaces line breaks and other control characters: names in files may hold anything. */

@@ -39,11 +39,11 @@ size_t spec_source_peek(const char *path, void *bytes, size_t size);
 void spec_source_close(struct spec_source *source);
 
 /*
- * Reads up to size bytes at the offset; *got < size only at the end. From a stream, offsets below what was taken are served
- * from the head; beyond it the stream is read forward, skipping what is between.
- * Before sealing, a read ends at head_limit. Not safe for two threads at once on a
- * stream. Errors: the system's, a read that begins at head_limit or beyond before
- * sealing (SPEC_ERANGE), going back in a stream.
+ * Reads up to size bytes at the offset; *got < size only at the end. From a stream, offsets
+ * below what was taken are served from the head; beyond it the stream is read forward,
+ * skipping what is between. Before sealing, a read ends at head_limit. Not safe for two
+ * threads at once on a stream. Errors: the system's, a read that begins at head_limit or
+ * beyond before sealing (SPEC_ERANGE), going back in a stream.
  */
 enum spec_status spec_source_read(struct spec_source *source, void *data, size_t size,
 	int64_t offset, size_t *got, struct spec_error *error);
@@ -57,7 +57,10 @@ void spec_source_seal(struct spec_source *source);
  */
 enum spec_status spec_source_drain(struct spec_source *source, struct spec_error *error);
 
-/* Copies what remains of a stream, head and all, to a scratch file and reads that from now on. */
+/*
+ * Copies what remains of a stream, head and all, to a scratch file
+ * and reads that from now on.
+ */
 enum spec_status spec_source_spool(struct spec_source *source, struct spec_error *error);
 
 #endif

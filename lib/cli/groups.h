@@ -12,8 +12,8 @@
 #define CLI_GROUP_OPTIONS 4 /* at most, of a group */
 
 struct cli_group {
-	const char
-		*option[CLI_GROUP_OPTIONS]; /* as the tool numbers them; null: not given */
+	/* As the tool numbers them; null: not given. */
+	const char *option[CLI_GROUP_OPTIONS];
 };
 
 struct cli_groups {

@@ -21,7 +21,10 @@ enum spec_status spec_rule_find(
 
 const char *spec_rule_name(enum spec_rule rule);
 
-/* What a rule is, in words for a reader, such as "the trapezoid over the spectrum's own wavelengths". */
+/*
+ * What a rule is, in words for a reader, such as "the trapezoid over the
+ * spectrum's own wavelengths".
+ */
 const char *spec_rule_title(enum spec_rule rule);
 
 /* What the weights of an image are besides themselves. */
@@ -63,7 +66,7 @@ enum spec_status spec_rule_weights(enum spec_rule rule, const struct spec_curve 
  * wavelength of 540 THz in standard air, 555.016 nm, where the candela is defined (SI Brochure
  * 2019; CIE S 017:2020, 17-21-092). That is 683.002 for V(lambda), which the CIE rounds to the
  * 683 lm/W that is returned for it (CIE 15:2018, 7.1); 683.6 for the observer of 1964, 683.36
- * and 683.14 for those of 2015, 1700 for scotopic vision.
+ * and 683.15 for those of 2015, 1700 for scotopic vision.
  * NaN where the observer has no y: sensors, or a curve that is no luminous efficiency.
  */
 double spec_rule_efficacy(const struct spec_curve *observer);

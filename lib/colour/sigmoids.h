@@ -22,17 +22,16 @@
 #include "base/error.h"
 #include "colour/upsample.h"
 
-#define SPEC_SIGMOIDS_LEAST 4 /* N */
+#define SPEC_SIGMOIDS_LEAST 4 /* N, as the next two */
 #define SPEC_SIGMOIDS_MOST 256
 #define SPEC_SIGMOIDS_USUAL 64
-#define SPEC_SIGMOIDS_KEYS 1024
+#define SPEC_SIGMOIDS_KEYS 1024 /* of the guesses at a cell */
 
 /* Cells along one axis: where they begin, and how to find one quickly. */
 struct spec_sigmoids_axis {
 	float at[SPEC_SIGMOIDS_MOST];
-	float rate
-		[SPEC_SIGMOIDS_MOST]; /* one over the way to the next, in the variable that
-					   interpolation is linear in */
+	/* One over the way to the next, in the variable that interpolation is linear in. */
+	float rate[SPEC_SIGMOIDS_MOST];
 	unsigned char guess[SPEC_SIGMOIDS_KEYS]; /* a cell at or below, by a key */
 };
 

@@ -74,7 +74,10 @@ enum spec_status spec_arithmetic_plan(struct spec_arithmetic *arithmetic,
 	const struct spec_arithmetic_setup *setup, struct spec_error *error);
 void spec_arithmetic_free(struct spec_arithmetic *arithmetic);
 
-/* Reads all lines, and writes the settings' output; as spec_image_save. reader: one per image. */
+/*
+ * Reads all lines, and writes the settings' output; as
+ * spec_image_save. reader: one per image.
+ */
 enum spec_status spec_arithmetic_run(struct spec_arithmetic *arithmetic,
 	struct spec_reader *const *reader, const struct spec_settings *settings,
 	unsigned long long *overflows, struct spec_error *error);

@@ -20,8 +20,8 @@ colour_bands(struct spec_comparing *comparison, struct spec_error *error)
 		bands_here, comparison->grid_nm, comparison->grid_edges_nm, 0};
 	const struct spec_curve *light =
 		a->role == SPEC_ROLE_REFLECTIVE ? setup->illuminant : NULL;
-	double outside,
-		*weight = spec_memory_new(3 * bands_here, sizeof *weight, "bands", error);
+	double outside;
+	double *weight = spec_memory_new(3 * bands_here, sizeof *weight, "bands", error);
 	char *quantity = spec_image_quantity(a, error);
 	enum spec_status status = weight && quantity ? SPEC_OK : SPEC_ENOMEM;
 

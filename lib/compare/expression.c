@@ -344,8 +344,8 @@ parse_function(struct parser *parser, const struct spec_function *function,
 }
 
 /*
- * Whether a word is "b750", of one image its value at that wavelength [nm]; digits behind a point
- * belong to it.
+ * Whether a word is "b750", of one image its value at that wavelength [nm]; digits
+ * behind a point belong to it.
  */
 static int
 take_band(struct parser *parser, struct word word, double *wavelength_nm)

@@ -28,11 +28,11 @@ void spec_falsecolour_size(const struct spec_falsecolour_setup *setup,
 	const struct spec_image *image, size_t *width, size_t *height);
 
 /*
- * Reads all lines and writes the picture. A number has its colour of the map, a vector the share
- * (v - low) / (high - low) of each component as its code, clipped to 0..1, not encoded; floats hold
- * the colours decoded, but shares as they are. A pixel that is not finite has
- * spec_colourmap_paint's colour. Where the scale is to be found, the numbers wait in a temporary
- * file; when all values are equal the scale ends 1 above them.
+ * Reads all lines and writes the picture. A number has its colour of the map, a vector the
+ * share (v - low) / (high - low) of each component as its code, clipped to 0..1, not
+ * encoded; floats hold the colours decoded, but shares as they are. A pixel that is not
+ * finite has spec_colourmap_paint's colour. Where the scale is to be found, the numbers
+ * wait in a temporary file; when all values are equal the scale ends 1 above them.
  * Errors: those of reading, of the picture, of the temporary file.
  */
 enum spec_status spec_falsecolour_run(struct spec_falsecolour *result,

@@ -27,7 +27,8 @@ enum spec_status spec_matte_read(struct spec_matte *mask, const char *text,
 
 /*
  * Sees that the channel is in the image of path; where none was named it is the only one, A,
- * or Y. Errors (SPEC_EUSAGE): it is not, none of these is, "=N" of a channel of no whole numbers.
+ * or Y. Errors (SPEC_EUSAGE): it is not, none of these is, "=N" of a channel of no whole
+ * numbers.
  */
 enum spec_status spec_matte_settle(struct spec_matte *mask, const struct spec_image *image,
 	const char *name, struct spec_error *error);

@@ -168,7 +168,10 @@ make_program(const struct maker *maker, const char *text)
 	return status;
 }
 
-/* How much of each band is in the sums: the band's own value, or what the observer sees of it. */
+/*
+ * How much of each band is in the sums: the band's own value, or
+ * what the observer sees of it.
+ */
 static enum spec_status
 weigh_bands(const struct maker *maker, double *weight)
 {

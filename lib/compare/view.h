@@ -1,6 +1,6 @@
 /*
- * What a false colour shows of an image: a number for each pixel, worked out from its channels, or
- * a vector, whose three components are red, green and blue.
+ * What a false colour shows of an image: a number for each pixel, worked out from its
+ * channels, or a vector, whose three components are red, green and blue.
  */
 #ifndef SPEC_COMPARE_VIEW_H
 #define SPEC_COMPARE_VIEW_H
@@ -43,8 +43,9 @@ struct spec_view_setup {
 	const char *expression;         /* of compare/expression.h, on one image */
 	const struct spec_layer *layer; /* of channels, not of bands */
 	/*
-	 * The band of an expression's "a" and "nm", and of polarisation; 0: none, and the Stokes
-	 * components are those of the light that the observer sees, weighted by its y.
+	 * The band of an expression's "a" and "nm", and of polarisation; 0:
+	 * none, and the Stokes components are those of the light that the
+	 * observer sees, weighted by its y.
 	 */
 	double band_nm;
 	const struct spec_curve *observer; /* of polarisation */
@@ -65,9 +66,9 @@ struct spec_view {
 };
 
 /*
- * image: indexed; name: its file, for messages; both must live as long. Errors: an expression that
- * is none, or not of this image, with the place in it; a band that is not there; no Stokes
- * components; those of spec_observer_weights.
+ * image: indexed; name: its file, for messages; both must live as long. Errors: an
+ * expression that is none, or not of this image, with the place in it; a band that is not
+ * there; no Stokes components; those of spec_observer_weights.
  */
 enum spec_status spec_view_make(struct spec_view *view, const struct spec_image *image,
 	const char *name, const struct spec_view_setup *setup, struct spec_error *error);

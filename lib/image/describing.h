@@ -10,7 +10,10 @@ const char *spec_describing_role(enum spec_role role);
 /* "uint", "half", "float". */
 const char *spec_describing_sample(enum spec_sample sample);
 
-/* "layout", "mitsuba", "iset3d", "kaist", "ocean", "given" or, where there are no bands, null. */
+/*
+ * "layout", "mitsuba", "iset3d", "kaist", "ocean", "given" or, where
+ * there are no bands, null.
+ */
 const char *spec_describing_naming(enum spec_naming naming);
 
 /* The unit of a quantity, or null: not known. */

@@ -21,9 +21,9 @@ struct spec_layer {
 };
 
 /*
- * Finds a layer of an indexed image. Where it is of bands, chosen becomes a copy of the image, with
- * the same channels in the same order, whose bands are the layer's; spec_image_clear it.
- * name: the file, for messages; layer must live as long as the result.
+ * Finds a layer of an indexed image. Where it is of bands, chosen becomes a copy of the
+ * image, with the same channels in the same order, whose bands are the layer's;
+ * spec_image_clear it. name: the file, for messages; layer must live as long as the result.
  * Errors: SPEC_EUSAGE: no such layer, those that there are in the message; SPEC_EFORMAT: bands
  * that make no image, as spec_image_index has it; SPEC_ENOMEM.
  */

@@ -19,9 +19,9 @@ struct spec_legend {
 size_t spec_legend_height(const struct spec_legend *legend);
 
 /*
- * Draws it into the last rows of a canvas, at least LEAST_WIDTH wide: the colours, below them the
- * numbers at their ends and half-way, and the label between the first two of these or below; what
- * is too long of it is cut at the right side.
+ * Draws it into the last rows of a canvas, at least LEAST_WIDTH wide: the colours, below
+ * them the numbers at their ends and half-way, and the label between the first two of these
+ * or below; what is too long of it is cut at the right side.
  */
 void spec_legend_draw(const struct spec_legend *legend, struct spec_canvas *canvas);
 

@@ -37,7 +37,10 @@ struct spec_picture_kind {
 	enum spec_picture_sample sample; /* what spec_picture_write is given */
 	int half;                        /* floats are stored with 16 bits */
 	char suffix[16];                 /* lower case, without the dot */
-	/* What OpenEXR can tell: account.h's text, or null; the luminance of 1 [cd m^-2], or 0. */
+	/*
+	 * What OpenEXR can tell: account.h's text, or null; the
+	 * luminance of 1 [cd m^-2], or 0.
+	 */
 	const char *account;
 	double luminance;
 };

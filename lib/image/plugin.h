@@ -17,7 +17,10 @@ struct spec_plugin {
 enum spec_status spec_plugin_find(
 	const char *file, const char *symbol, const void **table, struct spec_error *error);
 
-/* pictures.so. SPEC_EUNSUPPORTED: it was not found, cannot be loaded, or is of another version. */
+/*
+ * pictures.so. SPEC_EUNSUPPORTED: it was not found, cannot be loaded,
+ * or is of another version.
+ */
 enum spec_status spec_plugin_load(struct spec_plugin *plugin, struct spec_error *error);
 
 /* Harmless where nothing was loaded. */

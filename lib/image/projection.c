@@ -232,8 +232,8 @@ volume(const double a[3], const double b[3], const double c[3])
 }
 
 /*
- * Where three faces meet: their pixels there are a triangle, whose corners lie towards the middle
- * of each from d, the corner; of a direction the shares are those of its sum.
+ * Where three faces meet: their pixels there are a triangle, whose corners lie towards the
+ * middle of each from d, the corner; of a direction the shares are those of its sum.
  */
 static void
 blend_corner(const struct spec_panorama *panorama, size_t face, double right, double up,
@@ -271,7 +271,8 @@ blend_corner(const struct spec_panorama *panorama, size_t face, double right, do
 
 /*
  * Beyond an edge the next face is seen aslant: the middles of its first pixels lie 1 + 1 / side
- * times as far from the edge's middle as those of this face's last ones, and so do those between.
+ * times as far from the edge's middle as those of this face's last
+ * ones, and so do those between.
  */
 static void
 blend_cross(const struct spec_panorama *panorama, const double direction[3],

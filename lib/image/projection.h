@@ -1,6 +1,6 @@
 /*
- * How pictures of all that is around a point are laid out: which direction a place in them shows,
- * and which pixels lie around a direction.
+ * How pictures of all that is around a point are laid out: which direction a place in them
+ * shows, and which pixels lie around a direction.
  *
  * Directions are those of specrender(1)'s lights: z is up, and who looks along x has y on the
  * right. Places are counted in pixels, from the left and from above, pixels' middles at halves.
@@ -26,9 +26,10 @@ enum spec_projection {
 	SPEC_PROJECTION_TALL_CROSS,
 	/*
 	 * A square of equal areas, +z in its middle and -z in its corners.
-	 * Source: P. Clarberg: Fast Equal-Area Mapping of the (Hemi)Sphere using SIMD, J. Graphics
-	 *         Tools 13(3), 2008; M. Pharr, W. Jakob, G. Humphreys: Physically Based Rendering,
-	 *         4th edition 2023, section 3.8.3, whose directions these are.
+	 * Source: P. Clarberg: Fast Equal-Area Mapping of the (Hemi)Sphere using SIMD,
+	 *         J. Graphics Tools 13(3), 2008; M. Pharr, W. Jakob, G. Humphreys:
+	 *         Physically Based Rendering, 4th edition 2023, section 3.8.3, whose
+	 *         directions these are.
 	 */
 	SPEC_PROJECTION_OCTAHEDRAL
 };
@@ -41,8 +42,8 @@ struct spec_panorama {
 
 /*
  * "latlong", "cross", "tall-cross" or "octahedral", or one of these with ":" and its height in
- * pixels, else *height is 0. Errors (SPEC_EUSAGE): another name; a height that is no multiple of
- * the rows of faces, or none.
+ * pixels, else *height is 0. Errors (SPEC_EUSAGE): another name; a height that is no
+ * multiple of the rows of faces, or none.
  */
 enum spec_status spec_projection_parse(const char *text, enum spec_projection *projection,
 	size_t *height, struct spec_error *error);
@@ -69,8 +70,8 @@ struct spec_panorama_blend {
 };
 
 /*
- * The pixels around a direction, for values that are linear between their middles: across poles,
- * edges and corners, too.
+ * The pixels around a direction, for values that are linear between their middles: across
+ * poles, edges and corners, too.
  */
 struct spec_panorama_blend spec_panorama_around(
 	const struct spec_panorama *panorama, const double direction[3]);

@@ -13,8 +13,9 @@ struct spec_reader;
 
 /*
  * path "-" is standard input; a folder is one of pictures of one band each, as
- * spec_reader_open_list has them, in the order of their names. With several parts, settings->part names one by
- * number or name; without it the only part that has bands is taken, and
+ * spec_reader_open_list has them, in the order of their names. With several
+ * parts, settings->part names one by number or name; without it the only part
+ * that has bands is taken, and
  * where several have, that is an error that lists them. The image comes indexed.
  */
 enum spec_status spec_reader_open(struct spec_reader **reader, const char *path,

@@ -10,11 +10,11 @@
 #include "image/settings.h"
 
 /*
- * Reads a whole image, whose layout its shape tells, and writes it in another one, of that height
- * or, where height is 0, of like resolution. A pixel is the mean of 16 places in it, at which the
- * image is linear between the pixels' middles; what is beside the faces of a cross is 0. Channels
- * of whole numbers have those of the pixel nearest to the middle. All samples are in memory.
- * argc, argv: for the history, where the settings want one.
+ * Reads a whole image, whose layout its shape tells, and writes it in another one, of that
+ * height or, where height is 0, of like resolution. A pixel is the mean of 16 places in it,
+ * at which the image is linear between the pixels' middles; what is beside the faces of a
+ * cross is 0. Channels of whole numbers have those of the pixel nearest to the middle. All
+ * samples are in memory. argc, argv: for the history, where the settings want one.
  * Errors (the message names the file): another shape, polarised light, whose frames would turn
  * (SPEC_EUNSUPPORTED); more samples than the memory limit (SPEC_ERANGE); those of reading and
  * writing.

@@ -1,6 +1,6 @@
 /*
- * A first look at a header: OpenEXRCore sorts channels and attributes as it reads them, one by one,
- * and so takes minutes over a header with a million, before anybody can count them.
+ * A first look at a header: OpenEXRCore sorts channels and attributes as it reads them, one
+ * by one, and so takes minutes over a header with a million, before anybody can count them.
  */
 #ifndef SPEC_IMAGE_SCAN_H
 #define SPEC_IMAGE_SCAN_H

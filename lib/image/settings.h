@@ -17,9 +17,8 @@ struct spec_limits {
 struct spec_settings {
 	struct spec_limits limits;
 	const char *output; /* "-" is standard output */
-	const char
-		*format;  /* of images that are written, or null: by the output's suffix */
-	const char *part; /* null: the only part with bands */
+	const char *format; /* of images that are written; null: by the output's suffix */
+	const char *part;   /* null: the only part with bands */
 	/* What the user tells of bands, as given.h has it; null, OTHER: nothing. */
 	const char *name_map, *wavelengths;
 	enum spec_role read_as;

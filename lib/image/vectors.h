@@ -9,9 +9,9 @@
 /*
  * Reads an image's channels R, G and B and writes an image of the channels NAME.X, NAME.Y and
  * NAME.Z of floats, 2 c - 1 (D. Schiffner, Wellenlaengenbasiertes Beleuchtungsmodell im Shader,
- * 2008, equation 55, turned round), with the input's windows. c is the code of a picture, 0 to 1, as
- * it is where it is read as sRGB, and the number that OpenEXR holds. They are not made unit
- * vectors: what shows nothing, 1/2, is 0.
+ * 2008, equation 55, turned round), with the input's windows. c is the code of a picture, 0
+ * to 1, as it is where it is read as sRGB, and the number that OpenEXR holds. They are not
+ * made unit vectors: what shows nothing, 1/2, is 0.
  * argc, argv: for the history, where the settings want one.
  * Errors: no such channels (SPEC_EUNSUPPORTED), a name that is none (SPEC_EUSAGE); those of
  * reading and writing.

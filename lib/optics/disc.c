@@ -27,8 +27,9 @@
  * beta, c0 makes it send back about 0.044 of a lamp's light from above, as a plane of PVC with
  * index 1.54 does (0.045).
  *
- * T has table 7.1 for the CD, and names no other constants for its DVD in figure 7.9. An order's width is 0.5
- * degrees: the sun's or a lamp's at arm's length, and a disc that is not quite flat.
+ * T has table 7.1 for the CD, and names no other constants for its DVD in figure
+ * 7.9. An order's width is 0.5 degrees: the sun's or a lamp's at arm's length, and a
+ * disc that is not quite flat.
  */
 #define COMPOSITE_OF_T                                                                     \
 	.groove_scale = .005, .strip_height = 1, .strip_floor = .01,                       \

@@ -93,8 +93,8 @@ struct way {
 	const struct spec_atmosphere *atmosphere;
 	double cosine; /* of the sun's zenith angle */
 	double mass, ozone_mass;
-	double forward,
-		slant_forward; /* how much of it aerosol scatters down, B 3-11, 3-15 */
+	/* How much of it aerosol scatters down, B 3-11 and 3-15. */
+	double forward, slant_forward;
 	double incidence;  /* the cosine of the sun's angle with the plane's normal, or 0 */
 	double projection; /* that over the cosine of the zenith angle */
 	double upward;     /* the plane's share of the sky, (1 + cos tilt) / 2 */

@@ -36,8 +36,9 @@ struct spec_reading {
 /*
  * Reads "2003-10-17T12:30:30-07:00", the basic form "20031017T123030-0700", days of the
  * year "2003-290T19:30:30Z"; seconds, and their decimals after a point or comma, may be
- * missing, the zone may not: Z or an offset. "now" is the system's time and zone. Leap seconds are read where there was one.
- * SPEC_EUSAGE says what is wrong; SPEC_ERANGE: years from 1900 to 2100 alone.
+ * missing, the zone may not: Z or an offset. "now" is the system's time and zone. Leap
+ * seconds are read where there was one. SPEC_EUSAGE says what is wrong; SPEC_ERANGE:
+ * years from 1900 to 2100 alone.
  */
 enum spec_status spec_instant_parse(
 	const char *text, struct spec_instant *instant, struct spec_error *error);

@@ -25,8 +25,8 @@ enum spec_status spec_outdoors_daylight(
  * Turns a camera's transform, from the world, so that it looks from "string place" towards
  * "string toward", along the bearing of the shortest way, and "float elevation" 0 degrees
  * above the horizon. The transform that is there goes to x east, y up and z north. The scene
- * keeps the place. Without any of them all stays what it was. Errors as above; SPEC_EFORMAT: one without the other;
- * SPEC_ERANGE: both are the same place.
+ * keeps the place. Without any of them all stays what it was. Errors as above;
+ * SPEC_EFORMAT: one without the other; SPEC_ERANGE: both are the same place.
  */
 enum spec_status spec_outdoors_face(
 	const struct spec_arguments *arguments, struct spec_transform *camera);

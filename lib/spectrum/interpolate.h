@@ -16,8 +16,8 @@ enum spec_interpolate {
 	/*
 	 * Sprague's: polynomials of degree 5 through 6 equidistant samples that meet with equal
 	 * slopes and curvatures. T. B. Sprague: Explanation of a new formula for interpolation,
-	 * J. Inst. Actuaries 22 (1880) 270-285; CIE 167:2005, 9.2.4, table V, with the two samples
-	 * that it adds at each end.
+	 * J. Inst. Actuaries 22 (1880) 270-285; CIE 167:2005, 9.2.4, table V, with the two
+	 * samples that it adds at each end.
 	 */
 	SPEC_INTERPOLATE_SPRAGUE
 };

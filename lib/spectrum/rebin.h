@@ -21,8 +21,8 @@ void spec_bins_halfway(const double *wavelength_nm, size_t count, double *edges_
 /* Part of a bin that lies in another. */
 struct spec_overlap {
 	size_t first, count; /* old bins that the new one meets */
-	double below_nm,
-		above_nm; /* how much of it lies below the first and above the last */
+	double below_nm;     /* how much of it lies below the first */
+	double above_nm;     /* and above the last */
 };
 
 /* Which of bins old bins, whose ascending edges are given, a bin from low to high meets. */
@@ -47,10 +47,9 @@ void spec_curve_describe_outside(const struct spec_curve *curve,
 /*
  * The curve as means over the bins of a grid: edges_nm has one more than the grid; null:
  * they meet half-way as spec_bins_halfway has them. So do those that the samples are taken
- * for. All columns and texts. The integral
- * over the range of both is kept. The part of a bin outside counts as 0, or, under
- * SPEC_EXTRAPOLATE_CONSTANT, as the end's value. Error (SPEC_ERANGE): a bin that lies
- * outside as a whole, under SPEC_EXTRAPOLATE_REFUSE.
+ * for. All columns and texts. The integral over the range of both is kept. The part of a
+ * bin outside counts as 0, or, under SPEC_EXTRAPOLATE_CONSTANT, as the end's value. Error
+ * (SPEC_ERANGE): a bin that lies outside as a whole, under SPEC_EXTRAPOLATE_REFUSE.
  */
 enum spec_status spec_curve_rebin(const struct spec_curve *curve,
 	const struct spec_grid *grid, const double *edges_nm,

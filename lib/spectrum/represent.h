@@ -26,9 +26,9 @@ struct spec_representation {
 };
 
 /*
- * "sampled", "sampled:LO:HI:STEP", "tabulated", "fourier:N", "composite:K" or "composite:K,N". No
- * range but that of samples; the other members stay what they are. SPEC_EUSAGE: another
- * text; SPEC_ERANGE: numbers out of range.
+ * "sampled", "sampled:LO:HI:STEP", "tabulated", "fourier:N", "composite:K" or
+ * "composite:K,N". No range but that of samples; the other members stay what they are.
+ * SPEC_EUSAGE: another text; SPEC_ERANGE: numbers out of range.
  */
 enum spec_status spec_representation_parse(const char *text,
 	struct spec_representation *representation, struct spec_error *error);
@@ -36,8 +36,8 @@ enum spec_status spec_representation_parse(const char *text,
 /*
  * The wavelengths that stand for a spectrum where it has to be sampled: those of its
  * samples; else equal steps over its range (spec_spectrum_range), at most 1 nm and at most
- * a sixteenth of the shortest wave of a Fourier series, as far as SPEC_GRID_LONGEST allows. To be freed with free; null:
- * SPEC_ENOMEM.
+ * a sixteenth of the shortest wave of a Fourier series, as far as SPEC_GRID_LONGEST allows.
+ * To be freed with free; null: SPEC_ENOMEM.
  */
 double *spec_spectrum_grid(
 	const struct spec_spectrum *spectrum, size_t *count, struct spec_error *error);

@@ -14,8 +14,8 @@
 #define SPEC_WEIGHTS_MOST 6 /* samples that a value is made of */
 
 struct spec_weights {
-	size_t first,
-		count; /* samples first .. first + count - 1, none of them weighing 0 at the ends */
+	/* Samples first .. first + count - 1; the outer ones do not weigh 0. */
+	size_t first, count;
 	double weight[SPEC_WEIGHTS_MOST];
 };
 

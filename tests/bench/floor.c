@@ -22,7 +22,7 @@
 
 #define MOST_THREADS 64
 
-/* One clone for every x86-64, one with AVX2; see FACTS.md on the spelling. clang 14 lacks it. */
+/* One clone for every x86-64, one with AVX2; "avx2,fma" would be two. clang 14 lacks it. */
 #if defined(__x86_64__) && !defined(__clang__)
 #define WIDE __attribute__((target_clones("default", "arch=x86-64-v3")))
 #else

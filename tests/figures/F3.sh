@@ -66,7 +66,7 @@ check 'R + T - 1: largest' "$energy" at-most 1e-12
 check 'after 1 to 10 reflections: largest part of the bound 2 |t12 r23 t21| |r21 r23|^k / (1 - |r21 r23|)' \
   "$part" at-most 1
 
-# T adds powers, unpolarised: the series then ends elsewhere, by as much as ERRATA.md tells.
+# T adds powers, unpolarised: the series then ends elsewhere.
 note "T's own series of powers (6.12) tends to another limit, X = ((R cos β + √(1 − R² sin² β)) / (1 − R²))²."
 run 'for angle in 0 60 80; do
   specfilm --stack "air | 1.5 500nm | air" --spectrum --angle ${angle}deg --grid 380:780:1 >soap-$angle.spd

@@ -1,4 +1,7 @@
-/* Fuzzes expressions; what is taken must run, and have the same value wherever a pixel stands. */
+/*
+ * Fuzzes expressions; what is taken must run, and have the same
+ * value wherever a pixel stands.
+ */
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -3,8 +3,8 @@
  *
  *   peak FILE COMMAND [ARGUMENT]...
  *
- * Appends "SECONDS KIBIBYTES STATUS CPU-SECONDS" to FILE. The exit status is the command's, or 128
- * plus the signal that ended it.
+ * Appends "SECONDS KIBIBYTES STATUS CPU-SECONDS" to FILE. The exit status is the command's,
+ * or 128 plus the signal that ended it.
  *
  * The child of a fork begins with its parent's peak, so this program must stay small:
  * it has no library but libc.

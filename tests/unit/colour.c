@@ -236,7 +236,10 @@ test_srgb_scalar(void **state)
 	near(spec_srgb_encode(0), 0, 0, "black");
 	near(spec_srgb_encode(1), 1, 1e-15, "white");
 	near(spec_srgb_encode(.0031308), .040449936, 1e-15, "the end of the straight part");
-	/* 1.055 * .18^(1/2.4) - .055 and ((.5 + .055) / 1.055)^2.4 by python's decimal at 40 digits */
+	/*
+	 * 1.055 * .18^(1/2.4) - .055 and ((.5 + .055) / 1.055)^2.4 by
+	 * python's decimal at 40 digits
+	 */
 	near(spec_srgb_encode(.18), .46135612950044164, 1e-15, "encode .18");
 	near(spec_srgb_decode(.5), .21404114048223255, 1e-15, "decode .5");
 	/* The two branches of the standard meet only to within 3e-8. */

@@ -84,7 +84,7 @@ test_presets(void **state)
 	near(4 * disc_named("bluray").index * disc_named("bluray").pit_depth_nm, 405, 3.2,
 		"bluray depth");
 
-	/* EFFECTS.md, D6: a Blu-ray disc has no visible order at normal incidence. */
+	/* A Blu-ray disc has no visible order at normal incidence. */
 	for (int i = 0; i < 81; i++) {
 		spec_grating_orders(overhead, even[i], disc_named("bluray").track_nm,
 			&lowest, &highest);
@@ -93,7 +93,7 @@ test_presets(void **state)
 	}
 }
 
-/* ERRATA.md, L 7.1, to the digits that stand there. */
+/* T 7.7 and 7.8 by hand, with the side strips' norm put right (sigma1): to these digits. */
 static void
 test_pins(void **state)
 {

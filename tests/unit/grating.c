@@ -20,7 +20,7 @@ random_direction(uint64_t *seed, double direction[3])
 	direction[2] = z;
 }
 
-/* A CD under a lamp right above it, in the light of a green laser (EFFECTS.md, D2). */
+/* A CD under a lamp right above it, in the light of a green laser. */
 static void
 test_disc_angles(void **state)
 {

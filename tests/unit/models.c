@@ -113,7 +113,7 @@ cmyk_of_inks(void **state)
 		check_pair("cmyk", wanted[i], wanted[i] + 4, 1e-15);
 }
 
-/* EFFECTS.md C16. Every colour comes back, and each component keeps to its range. */
+/* Every colour comes back, and each component keeps to its range. */
 static void
 all_come_back(void **state)
 {

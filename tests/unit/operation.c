@@ -379,7 +379,10 @@ test_air(void **state)
 
 /* Abscissae */
 
-/* Planck's law in frequency, 2 h v^3 / c^2 / (e^(hv/kT) - 1), and in wavenumber, per THz, 1/cm. */
+/*
+ * Planck's law in frequency, 2 h v^3 / c^2 / (e^(hv/kT) - 1), and in
+ * wavenumber, per THz, 1/cm.
+ */
 static void
 test_planck_abscissa(void **state)
 {

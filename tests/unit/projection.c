@@ -95,7 +95,10 @@ test_square_has_equal_areas(void **state)
 				above[i] += d[2] > 1 - 2 * (i + 1.) / CAPS;
 		}
 	}
-	/* No pixel lies on the horizon. A cap of height h has h / 2 of all; its rim crosses about 2 SIDE pixels, a hundredth. */
+	/*
+	 * No pixel lies on the horizon. A cap of height h has h / 2 of all; its rim crosses
+	 * about 2 SIDE pixels, a hundredth.
+	 */
 	for (int i = 0; i < CAPS; i++)
 		near(above[i] / (double)(SIDE * SIDE), (i + 1.) / CAPS, .005, "cap");
 }

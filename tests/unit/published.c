@@ -136,8 +136,8 @@ lights_have_their_published_temperatures(void **state)
 }
 
 /*
- * X and Z for Y = 100: CIE 015:2018, as colour-science 0.4 repeats it (TVS_ILLUMINANTS). To half
- * of the last digit they are sums by 5 nm from 380 to 780 nm.
+ * X and Z for Y = 100: CIE 015:2018, as colour-science 0.4 repeats it (TVS_ILLUMINANTS). To
+ * half of the last digit they are sums by 5 nm from 380 to 780 nm.
  */
 static void
 illuminants_have_their_published_values(void **state)

@@ -68,7 +68,7 @@ pick(int kind, int i, double rgb[3])
 }
 
 /*
- * EFFECTS.md C6, between the table and its colours. Measured: .033, .064, .061, .069 and
+ * Between the table and its colours. Measured: .033, .064, .061, .069 and
  * .195 at most, .013, .011, .011, .008 and .02 on average.
  */
 static void

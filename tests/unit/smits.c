@@ -74,7 +74,7 @@ farthest(const struct spec_curve *curve, const struct spec_space *space)
 	return most;
 }
 
-/* EFFECTS.md C5: as bins to 0.001 (measured 0.0009); as ten points of an even grid 0.09. */
+/* As bins to 0.001 (measured 0.0009); as ten points of an even grid 0.09. */
 static void
 smits_bins_are_their_colours(void **state)
 {
@@ -94,7 +94,7 @@ smits_bins_are_their_colours(void **state)
 	spec_curve_free(&points);
 }
 
-/* EFFECTS.md C5: equal energy, seen by a display whose white is D65. */
+/* Equal energy, seen by a display whose white is D65. */
 static void
 smits_white_is_equal_energy(void **state)
 {
@@ -217,7 +217,7 @@ mallett_adds_to_one(void **state)
 	}
 }
 
-/* EFFECTS.md C6: under D65 the colours themselves. Measured, by sums over 1 nm: 0.066, 0.028. */
+/* Under D65 the colours themselves. Measured, by sums over 1 nm: 0.066, 0.028. */
 static void
 mallett_meets_its_colours(void **state)
 {

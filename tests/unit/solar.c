@@ -142,7 +142,8 @@ air_is_the_standard(void **state)
 
 /*
  * Refraction at 1010 hPa and 10 C by Bennett's and Saemundsson's formulas: Meeus (1998),
- * chapter 16, has 28.754' at an apparent 0.5 deg, 24.618' at a true 33.246' (they agree to .1'). The air masses are of table 1 of Kasten & Young (1989), by their formula.
+ * chapter 16, has 28.754' at an apparent 0.5 deg, 24.618' at a true 33.246' (they agree to
+ * .1'). The air masses are of table 1 of Kasten & Young (1989), by their formula.
  */
 static void
 light_is_bent_and_dimmed(void **state)

@@ -155,7 +155,11 @@ cross_boundary(struct ray from, struct ray to, int p)
 	return (struct boundary){(a - b) / (a + b), 2 * a / (a + b)};
 }
 
-/* W 67-68, where ERRATA.md has put them right. */
+/*
+ * D. Schiffner, Wellenlängenbasiertes Beleuchtungsmodell im Shader (2008), pages 67 and 68,
+ * put right: a layer's phase is 2 pi n d cos / lambda, not twice that, and what is let
+ * through has the factor e^(i phase), too.
+ */
 static struct exact
 parratt(const struct spec_stack *stack, double cosine, int p)
 {
@@ -543,7 +547,7 @@ airy(const struct film *film)
 	return creal(r) * creal(r) + cimag(r) * cimag(r);
 }
 
-/* One after the other: T 6.11-6.12 in amplitudes, as ERRATA.md has them. */
+/* One after the other: T 6.11 and 6.12, but of amplitudes where T adds powers. */
 static double
 echoes(const struct film *film, int count)
 {

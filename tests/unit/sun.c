@@ -43,7 +43,7 @@ miss(const struct spec_sun *sun, const double rgb[3], struct spec_gaussians *gau
 }
 
 /*
- * EFFECTS.md C6, over a grid of 16^3: all but some 3 % are met to rounding, and those are
+ * Over a grid of 16^3: all but some 3 % are met to rounding, and those are
  * blues outside the Gaussians' triangle. Measured: 3.80 and 3.75 at most, 0.05 on average.
  */
 static void
