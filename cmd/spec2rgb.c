@@ -29,7 +29,7 @@ static const struct cli_option options[] = {
 		"lab, xyy, or 'xr,yr xg,yg xb,yb xw,yw' (default: srgb)"},
 	{0, "transfer", "linear|srgb|rec709|rec2020|adobe|dci",
 		"encode whole numbers so (default: as the space has it)"},
-	{0, "adapt", "none|vonkries|bradford|cat02|cat16|daylight",
+	{0, "adapt", "none|vonkries|bradford|cat02|cat16|daylight[:METHOD]",
 		"adapt reflectance to the white of the space, or light from "
 		"the daylight of its own place and time (default: none)"},
 	{'e', "exposure", "EV|auto|auto:P%",

@@ -120,8 +120,9 @@ draw_glyph(struct spec_canvas *canvas, size_t x0, size_t y0, char character)
 	}
 }
 
-size_t
-spec_canvas_text_width(const char *text)
+/* Pixels that a text takes. */
+static size_t
+text_width(const char *text)
 {
 	size_t length = strlen(text);
 
@@ -132,7 +133,7 @@ void
 spec_canvas_text(struct spec_canvas *canvas, size_t x0, size_t y0,
 	enum spec_canvas_anchor anchor, const char *text)
 {
-	size_t shift = (size_t)anchor * spec_canvas_text_width(text) / 2;
+	size_t shift = (size_t)anchor * text_width(text) / 2;
 
 	x0 = x0 > shift ? x0 - shift : 0;
 	for (; *text; text++, x0 += ADVANCE)

@@ -35,7 +35,4 @@ enum spec_canvas_anchor { /* what of a text stands at its x */
 void spec_canvas_text(struct spec_canvas *canvas, size_t x0, size_t y0,
 	enum spec_canvas_anchor anchor, const char *text);
 
-/* Pixels that a text takes. */
-size_t spec_canvas_text_width(const char *text);
-
 #endif

@@ -44,8 +44,9 @@ spec_describing_naming(enum spec_naming naming)
 	}
 }
 
-const char *
-spec_describing_unit(const char *quantity)
+/* The unit of a quantity, or null: not known. */
+static const char *
+unit_of(const char *quantity)
 {
 	static const struct {
 		const char *quantity, *unit;
@@ -165,7 +166,7 @@ spec_describe_find(struct spec_describe *describe, const struct spec_reader *rea
 	describe->quantity = spec_image_quantity(image, error);
 	if (!describe->quantity)
 		return SPEC_ENOMEM;
-	describe->unit = spec_describing_unit(describe->quantity);
+	describe->unit = unit_of(describe->quantity);
 	status = spec_layers_find(
 		&describe->layers, image, describe->name, &describe->damage);
 	if (status != SPEC_ENOMEM)

@@ -16,9 +16,6 @@ const char *spec_describing_sample(enum spec_sample sample);
  */
 const char *spec_describing_naming(enum spec_naming naming);
 
-/* The unit of a quantity, or null: not known. */
-const char *spec_describing_unit(const char *quantity);
-
 /*
  * The kinds of geometry: "P", "N" …, the last is null. *vector: it has .X, .Y, .Z. Whether
  * an image has one, with a prefix such as "film1." or "".

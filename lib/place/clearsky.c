@@ -56,8 +56,8 @@ spec_atmosphere_set_turbidity(
 	return SPEC_OK;
 }
 
-enum spec_status
-spec_atmosphere_check(const struct spec_atmosphere *atmosphere, struct spec_error *error)
+static enum spec_status
+check_atmosphere(const struct spec_atmosphere *atmosphere, struct spec_error *error)
 {
 	const struct {
 		const char *what;
@@ -177,7 +177,7 @@ start(const struct spec_clearsky_sun *sun, const struct spec_atmosphere *atmosph
 	double zenith = sun->zenith_deg * RADIANS, height = OZONE_KM / EARTH_KM;
 	double tilt_deg = plane ? plane->tilt_deg : 0, tilt = tilt_deg * RADIANS;
 	double turn = plane ? (sun->azimuth_deg - plane->azimuth_deg) * RADIANS : 0;
-	enum spec_status status = spec_atmosphere_check(atmosphere, error);
+	enum spec_status status = check_atmosphere(atmosphere, error);
 
 	if (status != SPEC_OK)
 		return status;

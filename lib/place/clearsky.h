@@ -66,10 +66,6 @@ struct spec_atmosphere spec_atmosphere_default(void);
 enum spec_status spec_atmosphere_set_turbidity(
 	struct spec_atmosphere *atmosphere, double turbidity, struct spec_error *error);
 
-/* SPEC_ERANGE: something in it is outside its range; the message says what. */
-enum spec_status spec_atmosphere_check(
-	const struct spec_atmosphere *atmosphere, struct spec_error *error);
-
 /*
  * Irradiance [W m-2 nm-1] at the 122 wavelengths of the model, 300 to 4000 nm, a curve with
  * the columns

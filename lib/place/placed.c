@@ -5,7 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "image/reader.h"
 #include "image/writer.h"
 #include "image/writing.h"
 
@@ -148,23 +147,6 @@ spec_placed_print(FILE *stream, const struct spec_image *image)
 	if (spec_image_attribute(image, "altitude"))
 		fprintf(stream, ", %.6g m", place.altitude_m);
 	fputc('\n', stream);
-}
-
-enum spec_status
-spec_placed_of_file(const char *path, struct spec_place *place,
-	struct spec_instant *instant, struct spec_error *error)
-{
-	struct spec_settings settings;
-	struct spec_reader *reader = NULL;
-	enum spec_status status;
-
-	spec_settings_init(&settings);
-	status = spec_reader_open(&reader, path, &settings, error);
-	if (status == SPEC_OK)
-		status = spec_placed_of_image(spec_reader_image(reader),
-			spec_reader_name(reader), place, instant, error);
-	spec_reader_close(reader);
-	return status;
 }
 
 static enum spec_status

@@ -26,10 +26,6 @@ enum spec_status spec_placed_of_image(const struct spec_image *image, const char
 /* A line of it for people, as spec_describe_print has them; none where it is not said. */
 void spec_placed_print(FILE *stream, const struct spec_image *image);
 
-/* Those of the header of a file, or of standard input where path is "-". */
-enum spec_status spec_placed_of_file(const char *path, struct spec_place *place,
-	struct spec_instant *instant, struct spec_error *error);
-
 /* What options say of where and when; {0} at first. */
 struct spec_placed {
 	int has_place, has_time;

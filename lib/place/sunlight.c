@@ -59,8 +59,8 @@ find_part(const char *name, enum spec_sunlight_part *part)
 	return 0;
 }
 
-int
-spec_sunlight_is_named(const char *name)
+static int
+is_named(const char *name)
 {
 	enum spec_sunlight_part part;
 
@@ -305,5 +305,4 @@ spec_sunlight_named(const char *name, struct spec_curve *curve, struct spec_erro
 	return status == SPEC_OK ? spec_sunlight_make(&sunlight, curve, error) : status;
 }
 
-const struct spec_lookup_maker spec_sunlight_maker = {
-	spec_sunlight_is_named, spec_sunlight_named};
+const struct spec_lookup_maker spec_sunlight_maker = {is_named, spec_sunlight_named};

@@ -57,10 +57,7 @@ enum spec_status spec_sunlight_make(const struct spec_sunlight *sunlight,
 enum spec_status spec_sunlight_sun(const struct spec_sunlight *sunlight,
 	struct spec_clearsky_sun *sun, struct spec_error *error);
 
-/* Whether a name is one of these: begins with sun@, sky@ or daylight@. */
-int spec_sunlight_is_named(const char *name);
-
-/* The curve of such a name. */
+/* The curve of a name that begins with sun@, sky@ or daylight@. */
 enum spec_status spec_sunlight_named(
 	const char *name, struct spec_curve *curve, struct spec_error *error);
 

@@ -25,8 +25,9 @@ spec_parser_fail(const struct spec_parser *parser, const struct spec_statement *
 		parser->scene, &statement->place, parser->error, status, "%s", message);
 }
 
-enum spec_status
-spec_parser_at(const struct spec_parser *parser, const struct spec_scene_place *place,
+/* Puts a place before an error without one, such as a transform's. */
+static enum spec_status
+placed(const struct spec_parser *parser, const struct spec_scene_place *place,
 	enum spec_status status)
 {
 	if (status != SPEC_OK)
@@ -124,7 +125,7 @@ identity(struct spec_parser *parser, struct spec_statement *statement)
 static enum spec_status
 translate(struct spec_parser *parser, struct spec_statement *statement)
 {
-	return spec_parser_at(parser, &statement->place,
+	return placed(parser, &statement->place,
 		spec_transform_translate(
 			&parser->state.transform, statement->number, parser->error));
 }
@@ -132,7 +133,7 @@ translate(struct spec_parser *parser, struct spec_statement *statement)
 static enum spec_status
 scale(struct spec_parser *parser, struct spec_statement *statement)
 {
-	return spec_parser_at(parser, &statement->place,
+	return placed(parser, &statement->place,
 		spec_transform_scale(
 			&parser->state.transform, statement->number, parser->error));
 }
@@ -140,7 +141,7 @@ scale(struct spec_parser *parser, struct spec_statement *statement)
 static enum spec_status
 rotate(struct spec_parser *parser, struct spec_statement *statement)
 {
-	return spec_parser_at(parser, &statement->place,
+	return placed(parser, &statement->place,
 		spec_transform_rotate(&parser->state.transform, statement->number[0],
 			statement->number + 1, parser->error));
 }
@@ -150,7 +151,7 @@ look_at(struct spec_parser *parser, struct spec_statement *statement)
 {
 	const double *number = statement->number;
 
-	return spec_parser_at(parser, &statement->place,
+	return placed(parser, &statement->place,
 		spec_transform_look_at(&parser->state.transform, number, number + 3,
 			number + 6, parser->error));
 }
@@ -158,7 +159,7 @@ look_at(struct spec_parser *parser, struct spec_statement *statement)
 static enum spec_status
 set_transform(struct spec_parser *parser, struct spec_statement *statement)
 {
-	return spec_parser_at(parser, &statement->place,
+	return placed(parser, &statement->place,
 		spec_transform_set(
 			&parser->state.transform, statement->number, parser->error));
 }
@@ -166,7 +167,7 @@ set_transform(struct spec_parser *parser, struct spec_statement *statement)
 static enum spec_status
 concat_transform(struct spec_parser *parser, struct spec_statement *statement)
 {
-	return spec_parser_at(parser, &statement->place,
+	return placed(parser, &statement->place,
 		spec_transform_concat(
 			&parser->state.transform, statement->number, parser->error));
 }

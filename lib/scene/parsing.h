@@ -79,10 +79,6 @@ enum spec_status spec_parser_fail(const struct spec_parser *parser,
 struct spec_arguments spec_parser_arguments(
 	struct spec_parser *parser, const struct spec_statement *statement, int target);
 
-/* Puts a place before an error without one, such as a transform's. */
-enum spec_status spec_parser_at(const struct spec_parser *parser,
-	const struct spec_scene_place *place, enum spec_status status);
-
 /*
  * Sorts of things, as in Shape "sphere". In the last row of a table name is null, in others
  * expected is null where we lack what pbrt has.

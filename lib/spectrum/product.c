@@ -142,9 +142,9 @@ is_stated(const struct spec_curve *curve)
 	return curve->quantity[0] != '\0';
 }
 
-enum spec_status
-spec_curve_check_sum(
-	const struct spec_curve *a, const struct spec_curve *b, struct spec_error *error)
+/* Whether b can be added to a, as product.h has it; the error says why not. */
+static enum spec_status
+check_sum(const struct spec_curve *a, const struct spec_curve *b, struct spec_error *error)
 {
 	int same = !is_stated(a) || !is_stated(b) ||
 		   (spec_curve_is_light(a) && spec_curve_is_light(b)) ||
@@ -266,7 +266,7 @@ enum spec_status
 spec_curve_add(const struct spec_curve *a, const struct spec_curve *b,
 	struct spec_curve *result, struct spec_error *error)
 {
-	enum spec_status status = spec_curve_check_sum(a, b, error);
+	enum spec_status status = check_sum(a, b, error);
 
 	return status == SPEC_OK ? combine(ADD, a, b, result, error) : status;
 }

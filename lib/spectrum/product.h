@@ -36,8 +36,4 @@ enum spec_status spec_curve_divide(const struct spec_curve *a, const struct spec
 enum spec_status spec_curve_add(const struct spec_curve *a, const struct spec_curve *b,
 	struct spec_curve *result, struct spec_error *error);
 
-/* Whether b can be added to a, as above; the error says why not. */
-enum spec_status spec_curve_check_sum(
-	const struct spec_curve *a, const struct spec_curve *b, struct spec_error *error);
-
 #endif
