@@ -93,7 +93,7 @@ all: $(PROGRAMS) $(PLUGIN) $(PLOTS) $(PLACES) $(DATA) $(TABLE)
 help:
 	@echo 'make deps       install what the build and the tests need (apt-get)'
 	@echo 'make            build the tools into build/bin'
-	@echo 'make demo       make a spectral test card, show it, compare two of its stages'
+	@echo 'make demo       render a soap bubble and a test card, show them, compare'
 	@echo 'make check      run every test; SAN=address,undefined runs them under sanitizers'
 	@echo 'make unit       run the unit tests alone'
 	@echo 'make bench      measure speed and memory beside peers; bench-deps installs the peers'

@@ -234,7 +234,7 @@ take_false(struct job *job, const char *name, const char *value, int *known,
 	} else if (strcmp(name, "expr") == 0) {
 		job->shown.expression = value;
 	} else if (strcmp(name, "stokes") == 0) {
-		job->shown.polarisation = spec_polarisation_find(value, error);
+		job->shown.polarisation = spec_stokes_find(value, error);
 		status = job->shown.polarisation ? SPEC_OK : SPEC_EUSAGE;
 	} else {
 		scale = 1;
@@ -354,7 +354,10 @@ tell(struct job *job, const struct spec_image *image, const struct spec_rgb_setu
 	return status;
 }
 
-/* The sums that the options ask for, in a space; told of and scaled where it is the picture's. */
+/*
+ * The sums that the options ask for, in a space. What --verbose tells and the scale are of the
+ * picture's own space, not of the one that differences are found in.
+ */
 static enum spec_status
 plan(struct job *job, const struct spec_reader *reader, const struct spec_image *image,
 	const struct spec_space *space, struct spec_rgb *rgb, struct spec_error *error)

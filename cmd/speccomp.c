@@ -90,7 +90,7 @@ take_kind(struct job *job, const char *value, struct spec_error *error)
 }
 
 static enum spec_status
-choose(struct job *job, enum spec_operation operation, struct spec_error *error)
+choose(struct job *job, enum spec_arithmetic_operation operation, struct spec_error *error)
 {
 	job->setup.operation = operation;
 	if (job->chosen++ > 0)
@@ -102,19 +102,19 @@ choose(struct job *job, enum spec_operation operation, struct spec_error *error)
 static enum spec_status
 take_option(struct job *job, const char *name, const char *value, struct spec_error *error)
 {
-	enum spec_operation operation;
+	enum spec_arithmetic_operation operation;
 	enum spec_status status;
 	int known;
 
 	if (strcmp(name, "op") == 0) {
-		status = spec_operation_find(value, &operation, error);
+		status = spec_arithmetic_find(value, &operation, error);
 		return status == SPEC_OK ? choose(job, operation, error) : status;
 	}
 	if (strcmp(name, "merge") == 0)
-		return choose(job, SPEC_OPERATION_MERGE, error);
+		return choose(job, SPEC_ARITHMETIC_MERGE, error);
 	if (strcmp(name, "expr") == 0) {
 		job->setup.expression = value;
-		return choose(job, SPEC_OPERATION_EXPRESSION, error);
+		return choose(job, SPEC_ARITHMETIC_EXPRESSION, error);
 	}
 	if (strcmp(name, "weight") == 0)
 		return take_weights(job, value, error);
@@ -133,7 +133,7 @@ take_option(struct job *job, const char *name, const char *value, struct spec_er
 static void
 check_options(const struct cli *cli, const struct job *job)
 {
-	enum spec_operation operation = job->setup.operation;
+	enum spec_arithmetic_operation operation = job->setup.operation;
 	size_t from_stdin = 0;
 
 	if (job->chosen == 0)
@@ -141,17 +141,17 @@ check_options(const struct cli *cli, const struct job *job)
 			"what is to be done with the images? (--op, --merge or --expr)");
 	if (job->inputs == 0)
 		cli_usage(cli, "images are needed (try --help)");
-	if ((job->mask_text != NULL) != (operation == SPEC_OPERATION_LERP))
+	if ((job->mask_text != NULL) != (operation == SPEC_ARITHMETIC_LERP))
 		cli_usage(cli, job->mask_text ? "--mask is for --op lerp"
 					      : "--op lerp needs a --mask");
-	if (job->setup.alpha && operation != SPEC_OPERATION_OVER)
+	if (job->setup.alpha && operation != SPEC_ARITHMETIC_OVER)
 		cli_usage(cli, "--alpha is for --op over");
-	if (job->weights > 0 && operation != SPEC_OPERATION_MEAN &&
-		operation != SPEC_OPERATION_MERGE)
+	if (job->weights > 0 && operation != SPEC_ARITHMETIC_MEAN &&
+		operation != SPEC_ARITHMETIC_MERGE)
 		cli_usage(cli, "--weight is for --op mean and --merge");
 	if (job->weights > 0 && job->weights != job->inputs)
 		cli_usage(cli, "%zu weights for %zu images", job->weights, job->inputs);
-	if (job->setup.kind != SPEC_ROLE_OTHER && operation != SPEC_OPERATION_EXPRESSION)
+	if (job->setup.kind != SPEC_ROLE_OTHER && operation != SPEC_ARITHMETIC_EXPRESSION)
 		cli_usage(cli, "--kind is for --expr");
 	for (size_t i = 0; i < job->inputs; i++)
 		from_stdin += strcmp(job->input[i], "-") == 0;

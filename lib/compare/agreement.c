@@ -7,7 +7,7 @@
 static enum spec_status
 check_counts(const struct spec_plan *plan)
 {
-	const struct spec_operation_traits *operation = plan->operation;
+	const struct spec_arithmetic_traits *operation = plan->operation;
 
 	if (plan->operands < operation->least)
 		return spec_error_set(plan->error, SPEC_EUSAGE,
@@ -63,7 +63,7 @@ check_bins(const struct spec_plan *plan)
 	for (size_t i = first + 1; i < plan->operands && status == SPEC_OK; i++) {
 		if (plan->image[i]->edges_nm ||
 			(plan->image[i]->role == plan->image[first]->role &&
-				plan->setup->operation != SPEC_OPERATION_EXPRESSION))
+				plan->setup->operation != SPEC_ARITHMETIC_EXPRESSION))
 			status = spec_match_bins(
 				&plan->input[first], &plan->input[i], plan->error);
 	}
@@ -97,7 +97,7 @@ check_images(const struct spec_plan *plan)
 		if (status != SPEC_OK || i >= plan->operands)
 			continue;
 		if (plan->image[i]->bands == 0 &&
-			(i == 0 || plan->setup->operation != SPEC_OPERATION_EXPRESSION))
+			(i == 0 || plan->setup->operation != SPEC_ARITHMETIC_EXPRESSION))
 			return spec_error_set(plan->error, SPEC_EFORMAT,
 				"%s: has no spectral channel", plan->name[i]);
 		if (plan->image[i]->bands > 0)
@@ -119,7 +119,7 @@ check_alpha(const struct spec_plan *plan)
 {
 	const char *name = spec_formula_alpha(plan->setup);
 
-	if (plan->setup->operation != SPEC_OPERATION_OVER)
+	if (plan->setup->operation != SPEC_ARITHMETIC_OVER)
 		return SPEC_OK;
 	for (size_t i = 0; i + 1 < plan->operands; i++) {
 		const struct spec_image *image = plan->image[i];

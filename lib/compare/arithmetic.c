@@ -9,26 +9,26 @@
 
 #define ALIGNMENT 64 /* bytes, of a program's scratch */
 
-static const struct spec_operation_traits operations[] = {
-	[SPEC_OPERATION_ADD] = {"add", 2, SPEC_ARITHMETIC_MOST, 1, 1, 0, 1, 0},
-	[SPEC_OPERATION_SUBTRACT] = {"subtract", 2, 2, 1, 1, 0, 1, 0},
-	[SPEC_OPERATION_MULTIPLY] = {"multiply", 2, SPEC_ARITHMETIC_MOST, 0, 0, 0, 0, 0},
-	[SPEC_OPERATION_DIVIDE] = {"divide", 2, 2, 0, 0, 0, 0, 0},
-	[SPEC_OPERATION_MIN] = {"min", 2, SPEC_ARITHMETIC_MOST, 1, 0, 0, 0, 0},
-	[SPEC_OPERATION_MAX] = {"max", 2, SPEC_ARITHMETIC_MOST, 1, 0, 0, 0, 0},
-	[SPEC_OPERATION_MEAN] = {"mean", 2, SPEC_ARITHMETIC_MOST, 1, 1, 1, 1, 1},
-	[SPEC_OPERATION_OVER] = {"over", 2, SPEC_ARITHMETIC_MOST, 1, 1, 1, 0, 0},
-	[SPEC_OPERATION_LERP] = {"lerp", 2, 2, 1, 1, 1, 0, 0},
-	[SPEC_OPERATION_MERGE] = {"merge", 2, SPEC_ARITHMETIC_MOST, 1, 1, 1, 1, 1},
-	[SPEC_OPERATION_EXPRESSION] = {"expr", 1, SPEC_ARITHMETIC_MOST, 0, 0, 0, 0, 0},
+static const struct spec_arithmetic_traits operations[] = {
+	[SPEC_ARITHMETIC_ADD] = {"add", 2, SPEC_ARITHMETIC_MOST, 1, 1, 0, 1, 0},
+	[SPEC_ARITHMETIC_SUBTRACT] = {"subtract", 2, 2, 1, 1, 0, 1, 0},
+	[SPEC_ARITHMETIC_MULTIPLY] = {"multiply", 2, SPEC_ARITHMETIC_MOST, 0, 0, 0, 0, 0},
+	[SPEC_ARITHMETIC_DIVIDE] = {"divide", 2, 2, 0, 0, 0, 0, 0},
+	[SPEC_ARITHMETIC_MIN] = {"min", 2, SPEC_ARITHMETIC_MOST, 1, 0, 0, 0, 0},
+	[SPEC_ARITHMETIC_MAX] = {"max", 2, SPEC_ARITHMETIC_MOST, 1, 0, 0, 0, 0},
+	[SPEC_ARITHMETIC_MEAN] = {"mean", 2, SPEC_ARITHMETIC_MOST, 1, 1, 1, 1, 1},
+	[SPEC_ARITHMETIC_OVER] = {"over", 2, SPEC_ARITHMETIC_MOST, 1, 1, 1, 0, 0},
+	[SPEC_ARITHMETIC_LERP] = {"lerp", 2, 2, 1, 1, 1, 0, 0},
+	[SPEC_ARITHMETIC_MERGE] = {"merge", 2, SPEC_ARITHMETIC_MOST, 1, 1, 1, 1, 1},
+	[SPEC_ARITHMETIC_EXPRESSION] = {"expr", 1, SPEC_ARITHMETIC_MOST, 0, 0, 0, 0, 0},
 };
 
 enum spec_status
-spec_operation_find(
-	const char *name, enum spec_operation *operation, struct spec_error *error)
+spec_arithmetic_find(const char *name, enum spec_arithmetic_operation *operation,
+	struct spec_error *error)
 {
-	for (int i = 0; i < SPEC_OPERATION_MERGE; i++) {
-		*operation = (enum spec_operation)i;
+	for (int i = 0; i < SPEC_ARITHMETIC_MERGE; i++) {
+		*operation = (enum spec_arithmetic_operation)i;
 		if (strcmp(operations[i].name, name) == 0)
 			return SPEC_OK;
 	}

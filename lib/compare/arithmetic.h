@@ -17,26 +17,26 @@
 
 #define SPEC_ARITHMETIC_MOST 64 /* images; a mask may come to them */
 
-enum spec_operation {
-	SPEC_OPERATION_ADD,
-	SPEC_OPERATION_SUBTRACT,
-	SPEC_OPERATION_MULTIPLY,
-	SPEC_OPERATION_DIVIDE,
-	SPEC_OPERATION_MIN,
-	SPEC_OPERATION_MAX,
-	SPEC_OPERATION_MEAN,
-	SPEC_OPERATION_OVER,
-	SPEC_OPERATION_LERP,
-	SPEC_OPERATION_MERGE,
-	SPEC_OPERATION_EXPRESSION
+enum spec_arithmetic_operation {
+	SPEC_ARITHMETIC_ADD,
+	SPEC_ARITHMETIC_SUBTRACT,
+	SPEC_ARITHMETIC_MULTIPLY,
+	SPEC_ARITHMETIC_DIVIDE,
+	SPEC_ARITHMETIC_MIN,
+	SPEC_ARITHMETIC_MAX,
+	SPEC_ARITHMETIC_MEAN,
+	SPEC_ARITHMETIC_OVER,
+	SPEC_ARITHMETIC_LERP,
+	SPEC_ARITHMETIC_MERGE,
+	SPEC_ARITHMETIC_EXPRESSION
 };
 
 /* "add" and so on, but not the last two. Error (SPEC_EUSAGE): another name. */
-enum spec_status spec_operation_find(
-	const char *name, enum spec_operation *operation, struct spec_error *error);
+enum spec_status spec_arithmetic_find(const char *name,
+	enum spec_arithmetic_operation *operation, struct spec_error *error);
 
 struct spec_arithmetic_setup {
-	enum spec_operation operation;
+	enum spec_arithmetic_operation operation;
 	const char *expression;        /* of EXPRESSION */
 	const struct spec_matte *mask; /* of LERP; settled */
 	const char *alpha;             /* the channel of OVER; null: A */

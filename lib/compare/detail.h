@@ -23,8 +23,8 @@ enum spec_detail_pixel {
 	 * divided by their sums, p and q. Chang: An information-theoretic approach to spectral
 	 * variability, similarity, and discrimination for hyperspectral image analysis. IEEE
 	 * Transactions on Information Theory 46 (2000) 1927-1932, eq 11 to 14. What is below 0
-	 * counts as 0; infinite where one side alone is 0 in a band; 0
-	 * of two that are 0 in all.
+	 * counts as 0; infinite where one side alone is 0 in a band; 0 of two that are 0
+	 * in all.
 	 */
 	SPEC_DETAIL_SID,
 	SPEC_DETAIL_DE76,   /* DeltaE*ab */

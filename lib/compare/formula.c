@@ -9,7 +9,8 @@
 const char *
 spec_formula_alpha(const struct spec_arithmetic_setup *setup)
 {
-	return setup->operation == SPEC_OPERATION_OVER && setup->alpha ? setup->alpha : "A";
+	return setup->operation == SPEC_ARITHMETIC_OVER && setup->alpha ? setup->alpha
+									: "A";
 }
 
 static void
@@ -71,35 +72,35 @@ write_formula(FILE *to, const struct spec_arithmetic_setup *setup, const double 
 	size_t images)
 {
 	switch (setup->operation) {
-	case SPEC_OPERATION_ADD:
+	case SPEC_ARITHMETIC_ADD:
 		write_chain(to, "+", images);
 		break;
-	case SPEC_OPERATION_SUBTRACT:
+	case SPEC_ARITHMETIC_SUBTRACT:
 		write_chain(to, "-", images);
 		break;
-	case SPEC_OPERATION_MULTIPLY:
+	case SPEC_ARITHMETIC_MULTIPLY:
 		write_chain(to, "*", images);
 		break;
-	case SPEC_OPERATION_DIVIDE:
+	case SPEC_ARITHMETIC_DIVIDE:
 		write_chain(to, "/", images);
 		break;
-	case SPEC_OPERATION_MIN:
-	case SPEC_OPERATION_MAX:
-		fputs(setup->operation == SPEC_OPERATION_MIN ? "min(" : "max(", to);
+	case SPEC_ARITHMETIC_MIN:
+	case SPEC_ARITHMETIC_MAX:
+		fputs(setup->operation == SPEC_ARITHMETIC_MIN ? "min(" : "max(", to);
 		write_chain(to, ",", images);
 		fputs(")", to);
 		break;
-	case SPEC_OPERATION_MEAN:
-	case SPEC_OPERATION_MERGE:
+	case SPEC_ARITHMETIC_MEAN:
+	case SPEC_ARITHMETIC_MERGE:
 		write_mean(to, weight, images);
 		break;
-	case SPEC_OPERATION_OVER:
+	case SPEC_ARITHMETIC_OVER:
 		write_over(to, spec_formula_alpha(setup), images);
 		break;
-	case SPEC_OPERATION_LERP:
+	case SPEC_ARITHMETIC_LERP:
 		write_lerp(to, setup->mask, images);
 		break;
-	case SPEC_OPERATION_EXPRESSION:
+	case SPEC_ARITHMETIC_EXPRESSION:
 		fputs(setup->expression, to);
 		break;
 	}
@@ -152,14 +153,14 @@ enum spec_status
 spec_formula_variance(const struct spec_arithmetic_setup *setup, const double *weight,
 	size_t images, char **text, struct spec_error *error)
 {
-	int sums = setup->operation == SPEC_OPERATION_ADD ||
-		   setup->operation == SPEC_OPERATION_SUBTRACT;
+	int sums = setup->operation == SPEC_ARITHMETIC_ADD ||
+		   setup->operation == SPEC_ARITHMETIC_SUBTRACT;
 	struct spec_text written;
 	enum spec_status status;
 
 	*text = NULL;
-	if (!sums && setup->operation != SPEC_OPERATION_MEAN &&
-		setup->operation != SPEC_OPERATION_MERGE)
+	if (!sums && setup->operation != SPEC_ARITHMETIC_MEAN &&
+		setup->operation != SPEC_ARITHMETIC_MERGE)
 		return SPEC_OK;
 	status = spec_text_open(&written, error);
 	if (status != SPEC_OK)

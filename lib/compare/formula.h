@@ -14,9 +14,8 @@
  *   min, max           min(a, b, c ...)
  *   mean               (a + b + c ...) / n
  *   merge              (wa a + wb b + wc c ...) / (wa + wb + wc ...)
- *   over               a + (1 - a.A) (b + (1 - b.A) (c ...)), A being the channel of alpha; what
- *                      is behind an alpha of 1
- *                      plays no part
+ *   over               a + (1 - a.A) (b + (1 - b.A) (c ...)), A being the channel of alpha;
+ *                      what is behind an alpha of 1 plays no part
  *   lerp               (1 - m) a + m b, as mix has it
  */
 enum spec_status spec_formula_write(const struct spec_arithmetic_setup *setup,

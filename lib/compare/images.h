@@ -13,8 +13,8 @@
 
 struct spec_images_setup {
 	const struct spec_curve *observer; /* for colour differences; null: not wanted */
-	const struct spec_curve
-		*illuminant; /* on reflective images; its white is that of both */
+	/* On reflective images; its white is that of both. */
+	const struct spec_curve *illuminant;
 	int colour_optional; /* bands that the observer does not see are no error */
 	double exposure;     /* stops: emissive light of 2^-exposure is white */
 	int want_angle;
@@ -25,8 +25,8 @@ struct spec_images_setup {
 	int resample;            /* other bands are no difference: the overlap counts */
 	int exact;               /* whether all bits are the same */
 	double sigma;            /* of a test of significance; 0: none */
-	const struct spec_window
-		*crop; /* what counts, 0,0 is the data window's corner; or null */
+	/* What counts, 0,0 is the data window's corner; or null. */
+	const struct spec_window *crop;
 	const struct spec_matte *mask;   /* settled; or null */
 	struct spec_reader *mask_reader; /* of another file; null: the mask is in A */
 };

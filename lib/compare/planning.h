@@ -5,7 +5,7 @@
 #include "compare/arithmetic.h"
 #include "image/layers.h"
 
-struct spec_operation_traits {
+struct spec_arithmetic_traits {
 	const char *name;
 	size_t least, most; /* images */
 	int alike;  /* all are of one kind, quantity and the same components and bins */
@@ -22,7 +22,7 @@ struct spec_plan {
 	const char *name[SPEC_ARITHMETIC_MOST + 1];
 	size_t images, operands; /* the mask's image is no operand */
 	const struct spec_arithmetic_setup *setup;
-	const struct spec_operation_traits *operation;
+	const struct spec_arithmetic_traits *operation;
 	enum spec_role role; /* of the result */
 	size_t model; /* the operand of that role, whose components and bins it has */
 	const char *quantity;                 /* null: the first image's stays */

@@ -81,11 +81,11 @@ settle_result(struct spec_plan *plan)
 
 	plan->role = plan->image[0]->role;
 	switch (plan->setup->operation) {
-	case SPEC_OPERATION_MULTIPLY:
+	case SPEC_ARITHMETIC_MULTIPLY:
 		return settle_product(plan);
-	case SPEC_OPERATION_DIVIDE:
+	case SPEC_ARITHMETIC_DIVIDE:
 		return settle_quotient(plan);
-	case SPEC_OPERATION_EXPRESSION:
+	case SPEC_ARITHMETIC_EXPRESSION:
 		if (kind == SPEC_ROLE_OTHER || kind == plan->role)
 			return SPEC_OK;
 		plan->role = kind;
@@ -242,7 +242,7 @@ static enum spec_status
 settle_weights(struct spec_plan *plan)
 {
 	long long all = 0, samples;
-	int known = 1, merge = plan->setup->operation == SPEC_OPERATION_MERGE;
+	int known = 1, merge = plan->setup->operation == SPEC_ARITHMETIC_MERGE;
 	enum spec_status status = SPEC_OK;
 
 	plan->weight = plan->setup->weight;

@@ -47,8 +47,8 @@ enum spec_significance_kind {
 struct spec_significance {
 	size_t bands, columns;
 	struct spec_significance_sums *band; /* [bands] */
-	struct spec_significance_sums
-		*tile; /* [columns * bands] of the open row of tiles */
+	/* [columns * bands] of the open row of tiles */
+	struct spec_significance_sums *tile;
 	struct {
 		double chi_square;
 		size_t tiles;

@@ -54,7 +54,7 @@ ellipticity(const double s[4])
 	return DEGREES * atan2(s[3], linear_of(s)) / 2;
 }
 
-static const struct spec_polarisation polarisations[] = {
+static const struct spec_stokes_number polarisations[] = {
 	{"dop", "degree of polarisation", 0, 1, "viridis", degree},
 	{"dolp", "degree of linear polarisation", 0, 1, "viridis", linear_degree},
 	{"docp", "degree of circular polarisation", 0, 1, "viridis", circular_degree},
@@ -62,8 +62,8 @@ static const struct spec_polarisation polarisations[] = {
 	{"ellipticity", "ellipticity, deg", -45, 45, "cool-warm", ellipticity},
 };
 
-const struct spec_polarisation *
-spec_polarisation_find(const char *name, struct spec_error *error)
+const struct spec_stokes_number *
+spec_stokes_find(const char *name, struct spec_error *error)
 {
 	for (size_t i = 0; i < sizeof polarisations / sizeof *polarisations; i++) {
 		if (strcmp(polarisations[i].name, name) == 0)

@@ -25,7 +25,7 @@
  * What has no value, such as the angle of light that is not polarised, is NaN.
  * Source: M. Born, E. Wolf: Principles of Optics, 7th edition 1999, sections 1.4.2 and 10.9.
  */
-struct spec_polarisation {
+struct spec_stokes_number {
 	const char *name;
 	const char *label; /* with its unit */
 	double low, high;  /* of its scale */
@@ -34,18 +34,17 @@ struct spec_polarisation {
 };
 
 /* Error (SPEC_EUSAGE): another name. */
-const struct spec_polarisation *spec_polarisation_find(
+const struct spec_stokes_number *spec_stokes_find(
 	const char *name, struct spec_error *error);
 
 struct spec_view_setup {
 	/* The first of these that is not null, else the band alone. */
-	const struct spec_polarisation *polarisation;
+	const struct spec_stokes_number *polarisation;
 	const char *expression;         /* of compare/expression.h, on one image */
 	const struct spec_layer *layer; /* of channels, not of bands */
 	/*
-	 * The band of an expression's "a" and "nm", and of polarisation; 0:
-	 * none, and the Stokes components are those of the light that the
-	 * observer sees, weighted by its y.
+	 * The band of an expression's "a" and "nm", and of polarisation; 0: none, and the
+	 * Stokes components are those of the light that the observer sees, weighted by its y.
 	 */
 	double band_nm;
 	const struct spec_curve *observer; /* of polarisation */
@@ -59,7 +58,7 @@ struct spec_view {
 	size_t terms;     /* channels that are read */
 	size_t *channel;  /* [terms] */
 
-	const struct spec_polarisation *polarisation; /* or null */
+	const struct spec_stokes_number *polarisation; /* or null */
 	struct spec_rgb intensity, rest; /* its sums: S0, 0, 0 and S1, S2, S3 */
 	struct spec_program program;     /* of an expression or a band */
 	const struct spec_image *image;

@@ -26,8 +26,7 @@ struct spec_convert_setup {
 	int has_crop;
 	struct spec_window crop; /* in pixels of the data window: 0,0 is its corner */
 	int downsample;          /* mean of N x N pixels; 1: as it is */
-	enum spec_medium
-		medium; /* the wavelengths become those in it; unknown: they stay */
+	enum spec_medium medium; /* wavelengths become those in it; unknown: they stay */
 	const struct spec_grid *grid; /* new bands, or null */
 	const double *edges_nm;       /* of its bins, for rebin; null: they meet half-way */
 	const struct spec_grid *bands; /* bands to keep, as they are; or null */

@@ -29,8 +29,8 @@ struct spec_describe {
 	char *quantity;           /* "" without bands */
 	const char *unit;         /* of a sample, or null: not known */
 	struct spec_layers layers;
-	struct spec_error
-		damage; /* why there are no layers although there are channels of them */
+	/* Why there are no layers although there are channels of them. */
+	struct spec_error damage;
 };
 
 /* The reader and the setup must live as long as describe. Error: SPEC_ENOMEM. */

@@ -13,13 +13,13 @@ struct spec_reader;
 
 /*
  * path "-" is standard input; a folder is one of pictures of one band each, as
- * spec_reader_open_list has them, in the order of their names. With several
- * parts, settings->part names one by number or name; without it the only part
- * that has bands is taken, and
- * where several have, that is an error that lists them. The image comes indexed.
+ * spec_reader_open_list has them, in the order of their names. With several parts,
+ * settings->part names one by number or name; without it the only part that has bands is
+ * taken, and where several have, that is an error that lists them. The image comes indexed.
  */
 enum spec_status spec_reader_open(struct spec_reader **reader, const char *path,
 	const struct spec_settings *settings, struct spec_error *error);
+
 /*
  * The same of a list of pictures of one band each, in the order of settings->wavelengths or
  * with their wavelengths in their names, as 550nm.png.

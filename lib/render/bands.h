@@ -12,8 +12,8 @@ struct spec_bands_grid {
 	size_t count;
 	double *wavelength_nm; /* the bands' middles, ascending */
 	double *edges_nm;      /* [count + 1]: values are means between them */
-	enum spec_extrapolate
-		extrapolate; /* of ratios and indices; light ends with its data */
+	/* Of ratios and indices; light ends with its data. */
+	enum spec_extrapolate extrapolate;
 };
 
 /*

@@ -28,8 +28,8 @@ struct spec_daylight {
 	struct spec_daylight_share sky, disc;
 	float *ground; /* [bands] radiance [W m^-2 sr^-1 nm^-1] */
 
-	struct spec_surroundings
-		shares; /* directions but the sun's, by the mean of bands */
+	/* Directions but the sun's, by the mean of bands. */
+	struct spec_surroundings shares;
 	int has_sun;
 	double sun_chance; /* of the disc to be chosen */
 	double sun_sr;

@@ -30,9 +30,11 @@ struct spec_light_sample {
 	double distance; /* [m], up to which nothing may stand between: as far as rounding
 			    leaves the light behind it */
 	double density;  /* [1/sr] of this choice; 0: a point or a direction alone */
-	struct spec_bands_scaled
-		radiance; /* over density; of the former: irradiance perpendicular to the
-			     direction over the chance of the choice */
+	/*
+	 * Over density; of a point or a direction alone: irradiance perpendicular to the
+	 * direction, over the chance of the choice.
+	 */
+	struct spec_bands_scaled radiance;
 };
 
 /* Chooses a light and a direction to it; 0: there is none, or it sends nothing here. */

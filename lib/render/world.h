@@ -25,8 +25,8 @@ struct spec_hit {
 
 	/* What spec_world_describe adds: */
 	struct spec_vector tangent; /* dp/du, unit */
-	struct spec_vector
-		object; /* 0 to 1 in the object's bounding box, 0 where it is flat */
+	/* 0 to 1 in the object's bounding box, 0 where it is flat. */
+	struct spec_vector object;
 	double u, v;
 };
 

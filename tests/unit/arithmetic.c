@@ -92,7 +92,7 @@ plan_setup(const struct spec_arithmetic_setup *setup)
 }
 
 static enum spec_status
-plan(enum spec_operation operation)
+plan(enum spec_arithmetic_operation operation)
 {
 	const struct spec_arithmetic_setup setup = {
 		.operation = operation, .kind = SPEC_ROLE_OTHER};
@@ -104,7 +104,7 @@ static enum spec_status
 plan_expression(const char *text, enum spec_role kind)
 {
 	const struct spec_arithmetic_setup setup = {
-		.operation = SPEC_OPERATION_EXPRESSION, .expression = text, .kind = kind};
+		.operation = SPEC_ARITHMETIC_EXPRESSION, .expression = text, .kind = kind};
 
 	return plan_setup(&setup);
 }
@@ -204,7 +204,7 @@ lights(double a, double b, double c)
 }
 
 static void
-gives(enum spec_operation operation, double want)
+gives(enum spec_arithmetic_operation operation, double want)
 {
 	ok(plan(operation));
 	is(BAND, want);
@@ -218,19 +218,19 @@ test_values(void **state)
 {
 	(void)state;
 	lights(1.5, 0.25, -4);
-	gives(SPEC_OPERATION_ADD, -2.25);
+	gives(SPEC_ARITHMETIC_ADD, -2.25);
 	lights(1.5, 0.25, NAN);
-	gives(SPEC_OPERATION_SUBTRACT, 1.25);
+	gives(SPEC_ARITHMETIC_SUBTRACT, 1.25);
 	lights(1.5, 0.25, -4);
-	gives(SPEC_OPERATION_MIN, -4);
+	gives(SPEC_ARITHMETIC_MIN, -4);
 	lights(1.5, 0.25, -4);
-	gives(SPEC_OPERATION_MAX, 1.5);
+	gives(SPEC_ARITHMETIC_MAX, 1.5);
 	lights(1.5, 0.25, -4);
-	gives(SPEC_OPERATION_MEAN, -0.75);
+	gives(SPEC_ARITHMETIC_MEAN, -0.75);
 	/* NaN in one image is NaN in the result, whichever it is. */
 	for (int i = 0; i < 4; i++) {
-		static const enum spec_operation all[] = {SPEC_OPERATION_ADD,
-			SPEC_OPERATION_MIN, SPEC_OPERATION_MAX, SPEC_OPERATION_MEAN};
+		static const enum spec_arithmetic_operation all[] = {SPEC_ARITHMETIC_ADD,
+			SPEC_ARITHMETIC_MIN, SPEC_ARITHMETIC_MAX, SPEC_ARITHMETIC_MEAN};
 
 		lights(1, 2, 3);
 		sample[i % 3][1] = NAN;
@@ -238,7 +238,7 @@ test_values(void **state)
 	}
 	/* In double precision, rounded once: float would lose the ones. */
 	lights(1, 16777216, -16777216);
-	gives(SPEC_OPERATION_ADD, 1);
+	gives(SPEC_ARITHMETIC_ADD, 1);
 }
 
 static void
@@ -248,29 +248,29 @@ test_products(void **state)
 	lights(6, 1, NAN); /* the second is to be reflectance */
 	spec_image_clear(&image[--images]);
 	set_sample(reflectance(), RATIO, 0.5);
-	ok(plan(SPEC_OPERATION_MULTIPLY));
+	ok(plan(SPEC_ARITHMETIC_MULTIPLY));
 	is(BAND, 3);
 	clear();
 	set_sample(reflectance(), RATIO, 0.5);
 	set_sample(reflectance(), RATIO, 0.25);
 	set_sample(light(), BAND, 8);
 	ok(spec_image_set_text(&image[2], "spec:quantity", "radiance per band", &error));
-	ok(plan(SPEC_OPERATION_MULTIPLY));
+	ok(plan(SPEC_ARITHMETIC_MULTIPLY));
 	is(BAND, 1);
 	has_text("spec:quantity", "radiance per band");
 	assert_int_equal(arithmetic.image.role, SPEC_ROLE_EMISSIVE);
 	clear();
 	set_sample(reflectance(), RATIO, 0.5);
 	set_sample(reflectance(), RATIO, 0.25);
-	ok(plan(SPEC_OPERATION_MULTIPLY));
+	ok(plan(SPEC_ARITHMETIC_MULTIPLY));
 	is(RATIO, 0.125);
 	has_text("spec:quantity", NULL);
 	ok(spec_image_set_text(&image[1], "spec:quantity", "transmittance", &error));
-	ok(plan(SPEC_OPERATION_MULTIPLY));
+	ok(plan(SPEC_ARITHMETIC_MULTIPLY));
 	has_text("spec:quantity", "ratio");
 	clear();
 	lights(1, 2, NAN);
-	refused_as(plan(SPEC_OPERATION_MULTIPLY), "a.exr and b.exr are both light");
+	refused_as(plan(SPEC_ARITHMETIC_MULTIPLY), "a.exr and b.exr are both light");
 }
 
 static void
@@ -278,7 +278,7 @@ test_quotients(void **state)
 {
 	(void)state;
 	lights(1, 4, NAN);
-	ok(plan(SPEC_OPERATION_DIVIDE));
+	ok(plan(SPEC_ARITHMETIC_DIVIDE));
 	is(RATIO, 0.25);
 	has_text("spec:quantity", "ratio");
 	has_text("emissiveUnits", NULL);
@@ -289,23 +289,23 @@ test_quotients(void **state)
 	clear();
 	set_sample(light(), BAND, 1);
 	set_sample(reflectance(), RATIO, 0.5);
-	ok(plan(SPEC_OPERATION_DIVIDE));
+	ok(plan(SPEC_ARITHMETIC_DIVIDE));
 	is(BAND, 2);
 	clear();
 	set_sample(reflectance(), RATIO, 1);
 	set_sample(reflectance(), RATIO, 8);
-	ok(plan(SPEC_OPERATION_DIVIDE));
+	ok(plan(SPEC_ARITHMETIC_DIVIDE));
 	is(RATIO, 0.125);
 	has_text("spec:quantity", "ratio");
 	clear();
 	reflectance();
 	light();
-	refused_as(plan(SPEC_OPERATION_DIVIDE), "a.exr is reflectance, b.exr light");
+	refused_as(plan(SPEC_ARITHMETIC_DIVIDE), "a.exr is reflectance, b.exr light");
 	lights(1, 2, NAN);
 	ok(spec_image_set_text(&image[1], "spec:quantity", "radiance per band", &error));
-	refused_as(plan(SPEC_OPERATION_DIVIDE), "radiance per band");
+	refused_as(plan(SPEC_ARITHMETIC_DIVIDE), "radiance per band");
 	lights(1, 2, 3);
-	refused_as(plan(SPEC_OPERATION_DIVIDE), "divide takes 2 images at most, and 3");
+	refused_as(plan(SPEC_ARITHMETIC_DIVIDE), "divide takes 2 images at most, and 3");
 }
 
 static const char *const alpha[] = {"A", NULL};
@@ -319,7 +319,7 @@ test_over(void **state)
 		set_sample(&image[i], BAND, 0.125 * (i + 1));
 		set_sample(&image[i], "A", 0.25 * (i + 1));
 	}
-	ok(plan(SPEC_OPERATION_OVER));
+	ok(plan(SPEC_ARITHMETIC_OVER));
 	is(BAND, 0.125 + 0.75 * (0.25 + 0.5 * 0.375));
 	is("A", 0.25 + 0.75 * (0.5 + 0.5 * 0.75));
 	/* What is hidden plays no part; what is seen through nothing is there as it is. */
@@ -339,13 +339,13 @@ test_over(void **state)
 	new_image(SPEC_ROLE_EMISSIVE, 1, 2, alpha);
 	light();
 	set_sample(&image[0], "A", 0.25);
-	ok(plan(SPEC_OPERATION_OVER));
+	ok(plan(SPEC_ARITHMETIC_OVER));
 	is("A", 1);
 	is(BAND, 1 + 0.75 * 2);
 	clear();
 	light();
 	new_image(SPEC_ROLE_EMISSIVE, 1, 2, alpha);
-	refused_as(plan(SPEC_OPERATION_OVER), "a.exr has no alpha (A), so b.exr");
+	refused_as(plan(SPEC_ARITHMETIC_OVER), "a.exr has no alpha (A), so b.exr");
 }
 
 static enum spec_status
@@ -353,7 +353,7 @@ plan_lerp(const char *text)
 {
 	struct spec_matte mask;
 	const struct spec_arithmetic_setup setup = {
-		.operation = SPEC_OPERATION_LERP, .mask = &mask, .kind = SPEC_ROLE_OTHER};
+		.operation = SPEC_ARITHMETIC_LERP, .mask = &mask, .kind = SPEC_ROLE_OTHER};
 	enum spec_status status = spec_matte_read(&mask, text, &image[0], "a.exr", &error);
 
 	if (status == SPEC_OK)
@@ -402,23 +402,23 @@ static void
 test_merge(void **state)
 {
 	static const double weight[] = {1, 3}, fine[] = {0.123456789, 0.987654321};
-	struct spec_arithmetic_setup setup = {.operation = SPEC_OPERATION_MERGE,
+	struct spec_arithmetic_setup setup = {.operation = SPEC_ARITHMETIC_MERGE,
 		.weight = weight,
 		.kind = SPEC_ROLE_OTHER};
 
 	(void)state;
 	lights(1, 2, NAN);
 	ok(spec_samples_set(&image[0], 48, "a.exr", &error));
-	assert_int_equal(plan(SPEC_OPERATION_MERGE), SPEC_EUSAGE);
+	assert_int_equal(plan(SPEC_ARITHMETIC_MERGE), SPEC_EUSAGE);
 	assert_non_null(strstr(error.message, "b.exr does not say its samples"));
 	ok(plan_setup(&setup));
 	is(BAND, 1.75);
 	has_samples(0);
 	ok(spec_samples_set(&image[1], 16, "b.exr", &error));
-	ok(plan(SPEC_OPERATION_MERGE));
+	ok(plan(SPEC_ARITHMETIC_MERGE));
 	is(BAND, 1.25);
 	has_samples(64);
-	setup.operation = SPEC_OPERATION_MEAN;
+	setup.operation = SPEC_ARITHMETIC_MEAN;
 	ok(plan_setup(&setup));
 	is(BAND, 1.75);
 	has_samples(0);
@@ -426,10 +426,10 @@ test_merge(void **state)
 	ok(plan_setup(&setup));
 	is(BAND, (fine[0] * 1 + fine[1] * 2) / (fine[0] + fine[1]));
 	ok(spec_samples_set(&image[1], 2147483647, "b.exr", &error));
-	refused_as(plan(SPEC_OPERATION_MERGE), "more than spec:samples can say");
+	refused_as(plan(SPEC_ARITHMETIC_MERGE), "more than spec:samples can say");
 	lights(1, 2, NAN);
 	ok(spec_image_set_text(&image[0], "spec:samples", "12", &error));
-	refused_as(plan(SPEC_OPERATION_MERGE), "a.exr: its spec:samples is no int");
+	refused_as(plan(SPEC_ARITHMETIC_MERGE), "a.exr: its spec:samples is no int");
 }
 
 /* Geometry is the mean over what was met; light layers are worked on as S0. */
@@ -453,7 +453,7 @@ test_geometry(void **state)
 		set_sample(fresh, "film1.id", i == 0 ? 16777217 : 5);
 		ok(spec_samples_set(&image[i], i == 0 ? 10 : 20, "it", &error));
 	}
-	ok(plan(SPEC_OPERATION_MERGE));
+	ok(plan(SPEC_ARITHMETIC_MERGE));
 	is(BAND, (10. * 1 + 20 * 2) / 30);
 	is("film1.mirror.S0.500nm", (10. * 1 + 20 * 2) / 30);
 	is("through.S0.500nm", (10. * 1 + 20 * 2) / 30);
@@ -473,16 +473,17 @@ test_geometry(void **state)
 	set_sample(&image[1], "film1.cover", 0);
 	is("film1.P.Y", 0);
 	is("film1.N.Z", 0);
-	ok(plan(SPEC_OPERATION_ADD));
+	ok(plan(SPEC_ARITHMETIC_ADD));
 	is("film1.mirror.S0.400nm", 3);
 	is("film1.P.Y", 1);
 	clear();
 	new_image(SPEC_ROLE_EMISSIVE, 1, 2, channels);
 	new_image(SPEC_ROLE_EMISSIVE, 1, 2, channels);
-	refused_as(plan(SPEC_OPERATION_MAX), "a.exr has light layers, which max cannot do");
+	refused_as(
+		plan(SPEC_ARITHMETIC_MAX), "a.exr has light layers, which max cannot do");
 	light();
 	new_image(SPEC_ROLE_EMISSIVE, 1, 2, channels);
-	refused_as(plan(SPEC_OPERATION_ADD), "light layers of 0 films and of 0 lamps");
+	refused_as(plan(SPEC_ARITHMETIC_ADD), "light layers of 0 films and of 0 lamps");
 }
 
 static void
@@ -523,7 +524,7 @@ test_stokes(void **state)
 	new_image(SPEC_ROLE_EMISSIVE, 4, 2, NULL);
 	new_image(SPEC_ROLE_EMISSIVE, 4, 2, NULL);
 	set_sample(&image[0], "S2.400,000000nm", -0.5);
-	ok(plan(SPEC_OPERATION_ADD));
+	ok(plan(SPEC_ARITHMETIC_ADD));
 	is("S2.400,000000nm", 1.5);
 	is("S0.400,000000nm", 3);
 	ok(plan_expression("a(500) * stokes", SPEC_ROLE_OTHER));
@@ -531,18 +532,18 @@ test_stokes(void **state)
 	is("S0.400,000000nm", 0);
 	ok(plan_expression("a", SPEC_ROLE_REFLECTIVE)); /* of S0 */
 	is("T.400,000000nm", 1);
-	assert_int_equal(plan(SPEC_OPERATION_DIVIDE), SPEC_EUNSUPPORTED);
-	refused_as(plan(SPEC_OPERATION_MIN), "of which there is no min");
+	assert_int_equal(plan(SPEC_ARITHMETIC_DIVIDE), SPEC_EUNSUPPORTED);
+	refused_as(plan(SPEC_ARITHMETIC_MIN), "of which there is no min");
 	new_image(SPEC_ROLE_EMISSIVE, 4, 2, NULL);
 	reflectance();
 	set_sample(&image[0], "S2.400,000000nm", -0.5);
 	set_sample(&image[1], "T.400,000000nm", 0.5);
-	ok(plan(SPEC_OPERATION_MULTIPLY));
+	ok(plan(SPEC_ARITHMETIC_MULTIPLY));
 	is("S2.400,000000nm", -0.25);
 	clear();
 	light();
 	new_image(SPEC_ROLE_EMISSIVE, 4, 2, NULL);
-	refused_as(plan(SPEC_OPERATION_ADD), "a.exr has 1 Stokes component, b.exr 4");
+	refused_as(plan(SPEC_ARITHMETIC_ADD), "a.exr has 1 Stokes component, b.exr 4");
 	light();
 	new_image(SPEC_ROLE_EMISSIVE, 4, 2, NULL);
 	refused_as(
@@ -558,17 +559,17 @@ test_bispectral(void **state)
 	(void)state;
 	new_image(SPEC_ROLE_REFLECTIVE, 1, 2, off);
 	new_image(SPEC_ROLE_REFLECTIVE, 1, 2, off);
-	ok(plan(SPEC_OPERATION_MEAN));
+	ok(plan(SPEC_ARITHMETIC_MEAN));
 	is(off[0], 1.5);
 	is(RATIO, 1.5);
-	assert_int_equal(plan(SPEC_OPERATION_MULTIPLY), SPEC_EUNSUPPORTED);
-	refused_as(plan(SPEC_OPERATION_MAX), "is bispectral, which max cannot do");
+	assert_int_equal(plan(SPEC_ARITHMETIC_MULTIPLY), SPEC_EUNSUPPORTED);
+	refused_as(plan(SPEC_ARITHMETIC_MAX), "is bispectral, which max cannot do");
 	new_image(SPEC_ROLE_REFLECTIVE, 1, 2, off);
 	new_image(SPEC_ROLE_REFLECTIVE, 1, 2, other);
-	refused_as(plan(SPEC_OPERATION_MEAN), "b.exr has no channel 'T.400");
+	refused_as(plan(SPEC_ARITHMETIC_MEAN), "b.exr has no channel 'T.400");
 	new_image(SPEC_ROLE_REFLECTIVE, 1, 2, off);
 	reflectance();
-	refused_as(plan(SPEC_OPERATION_MEAN), "a.exr has 1 bispectral channels, b.exr 0");
+	refused_as(plan(SPEC_ARITHMETIC_MEAN), "a.exr has 1 bispectral channels, b.exr 0");
 }
 
 static void
@@ -588,29 +589,29 @@ test_mismatches(void **state)
 	(void)state;
 	light();
 	new_image(SPEC_ROLE_EMISSIVE, 1, 3, NULL);
-	refused_as(plan(SPEC_OPERATION_ADD),
+	refused_as(plan(SPEC_ARITHMETIC_ADD),
 		"a.exr has 2 bands 400..500 nm, b.exr 3 bands 400..600 nm");
 	light();
 	reflectance();
-	refused_as(plan(SPEC_OPERATION_ADD),
+	refused_as(plan(SPEC_ARITHMETIC_ADD),
 		"a.exr is light ('radiance per nm'), b.exr reflectance ('reflectance')");
 	light();
 	light()->data.x1 = 2;
-	refused_as(plan(SPEC_OPERATION_ADD),
+	refused_as(plan(SPEC_ARITHMETIC_ADD),
 		"a.exr has the data window 0,0,1,1, b.exr 0,0,2,1");
 	light();
 	light()->display.x0 = -1;
-	refused_as(plan(SPEC_OPERATION_ADD), "display window 0,0,1,1, b.exr -1,0,1,1");
+	refused_as(plan(SPEC_ARITHMETIC_ADD), "display window 0,0,1,1, b.exr -1,0,1,1");
 	bins(light(), 350);
 	light();
-	refused_as(plan(SPEC_OPERATION_ADD), "a.exr has bins, b.exr point samples");
+	refused_as(plan(SPEC_ARITHMETIC_ADD), "a.exr has bins, b.exr point samples");
 	bins(light(), 350);
 	bins(light(), 360);
-	refused_as(plan(SPEC_OPERATION_ADD), "a bin's edge at 350 nm, b.exr at 360 nm");
+	refused_as(plan(SPEC_ARITHMETIC_ADD), "a bin's edge at 350 nm, b.exr at 360 nm");
 	bins(light(), 350);
 	bins(reflectance(), 360);
 	refused_as(
-		plan(SPEC_OPERATION_MULTIPLY), "a bin's edge at 350 nm, b.exr at 360 nm");
+		plan(SPEC_ARITHMETIC_MULTIPLY), "a bin's edge at 350 nm, b.exr at 360 nm");
 	/* In expressions bins are the user's affair where there are none on one side. */
 	bins(light(), 350);
 	light();
@@ -623,18 +624,18 @@ test_mismatches(void **state)
 	/* Reflectance at points multiplies light in bins, either way round. */
 	reflectance();
 	bins(light(), 350);
-	ok(plan(SPEC_OPERATION_MULTIPLY));
+	ok(plan(SPEC_ARITHMETIC_MULTIPLY));
 	has_text("spec:bins", "350 450 550");
 	clear();
 	light();
-	refused_as(plan(SPEC_OPERATION_ADD), "add needs 2 images at least, and 1 is");
+	refused_as(plan(SPEC_ARITHMETIC_ADD), "add needs 2 images at least, and 1 is");
 	odd = new_image(SPEC_ROLE_EMISSIVE, 1, 3, NULL);
 	new_image(SPEC_ROLE_EMISSIVE, 1, 3, NULL);
 	free(odd->channel[1].name);
 	odd->channel[1].name = strdup("S0.500,5nm");
 	odd->channel[1].wavelength_nm = 500.5;
 	ok(spec_image_index(odd, "a.exr", &error));
-	refused_as(plan(SPEC_OPERATION_ADD),
+	refused_as(plan(SPEC_ARITHMETIC_ADD),
 		"3 bands 400..600 nm with one at 500.5 nm, b.exr 3 bands 400..600 nm with one at 500 nm");
 }
 
@@ -646,7 +647,7 @@ test_history(void **state)
 	ok(spec_image_set_text(&image[0], "spec:history", "one\n", &error));
 	ok(spec_image_set_text(&image[1], "spec:history", "one\n", &error));
 	ok(spec_image_set_text(&image[2], "spec:history", "two\nthree", &error));
-	ok(plan(SPEC_OPERATION_ADD));
+	ok(plan(SPEC_ARITHMETIC_ADD));
 	has_text("spec:history", "one\ntwo\nthree\n");
 	clear();
 }
@@ -654,13 +655,13 @@ test_history(void **state)
 static void
 test_names(void **state)
 {
-	enum spec_operation operation;
+	enum spec_arithmetic_operation operation;
 
 	(void)state;
-	ok(spec_operation_find("lerp", &operation, &error));
-	assert_int_equal(operation, SPEC_OPERATION_LERP);
-	assert_int_equal(spec_operation_find("merge", &operation, &error), SPEC_EUSAGE);
-	assert_int_equal(spec_operation_find("", &operation, &error), SPEC_EUSAGE);
+	ok(spec_arithmetic_find("lerp", &operation, &error));
+	assert_int_equal(operation, SPEC_ARITHMETIC_LERP);
+	assert_int_equal(spec_arithmetic_find("merge", &operation, &error), SPEC_EUSAGE);
+	assert_int_equal(spec_arithmetic_find("", &operation, &error), SPEC_EUSAGE);
 }
 
 static int

@@ -86,7 +86,7 @@ run(const struct spec_view *view,
 static double
 tell(const char *name, const double stokes[4])
 {
-	return spec_polarisation_find(name, NULL)->of(stokes);
+	return spec_stokes_find(name, NULL)->of(stokes);
 }
 
 /* Light of a degree, made of an ellipse at an angle (Born & Wolf, 1.4.2, (45)). */
@@ -173,12 +173,12 @@ test_polarised_bands(void **state)
 	const double *y = weight + BANDS;
 
 	(void)state;
-	setup.polarisation = spec_polarisation_find("dop", NULL);
+	setup.polarisation = spec_stokes_find("dop", NULL);
 	setup.band_nm = 450;
 	check_view(&setup, .5, 1e-6);
 	setup.band_nm = 650.0002;
 	check_view(&setup, .5, 1e-6);
-	setup.polarisation = spec_polarisation_find("aop", NULL);
+	setup.polarisation = spec_stokes_find("aop", NULL);
 	setup.band_nm = 550;
 	check_view(&setup, 45, 1e-5);
 
@@ -190,11 +190,11 @@ test_polarised_bands(void **state)
 	v = -4 * y[2];
 	setup.band_nm = 0;
 	check_view(&setup, atan2(u, q) / 2 / DEG, 1e-5);
-	setup.polarisation = spec_polarisation_find("dop", NULL);
+	setup.polarisation = spec_stokes_find("dop", NULL);
 	check_view(&setup, sqrt(q * q + u * u + v * v) / i, 1e-6);
-	setup.polarisation = spec_polarisation_find("docp", NULL);
+	setup.polarisation = spec_stokes_find("docp", NULL);
 	check_view(&setup, -v / i, 1e-6);
-	setup.polarisation = spec_polarisation_find("ellipticity", NULL);
+	setup.polarisation = spec_stokes_find("ellipticity", NULL);
 	check_view(&setup, atan2(v, hypot(q, u)) / 2 / DEG, 1e-5);
 }
 
@@ -227,7 +227,7 @@ refused(const struct spec_image *image, const struct spec_view_setup *setup,
 static void
 test_refused(void **state)
 {
-	const struct spec_polarisation *dop = spec_polarisation_find("dop", NULL);
+	const struct spec_stokes_number *dop = spec_stokes_find("dop", NULL);
 	struct spec_error error = {0};
 
 	(void)state;
@@ -243,7 +243,7 @@ test_refused(void **state)
 		"of which band?");
 	refused(&light, &(struct spec_view_setup){.expression = "a.Q"}, SPEC_EUSAGE,
 		"f.exr has no channel 'Q'");
-	assert_null(spec_polarisation_find("s1", &error));
+	assert_null(spec_stokes_find("s1", &error));
 	assert_contains(error.message, "dop, dolp, docp, aop or ellipticity");
 }
 
