@@ -1,36 +1,15 @@
 /* Scene spectra in the bands that are rendered: against tables, Planck and the eye. */
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
-
-#include <cmocka.h>
 
 #include "render/bands.h"
 #include "scene/parse.h"
 #include "spectrum/lookup.h"
 
-#define COUNT(list) (sizeof(list) / sizeof *(list))
+#include "check.h"
+
 #define MOST 1024 /* bands */
 #define ROUNDED 1e-12
-
-static void
-check(enum spec_status status, const struct spec_error *error)
-{
-	if (status != SPEC_OK)
-		fail_msg("%s", error->message);
-}
-
-static void
-expect_near(double value, double wanted, double bound, const char *what)
-{
-	if (!(fabs(value - wanted) <= bound))
-		fail_msg("%s: %.12g instead of %.12g +- %.2g", what, value, wanted, bound);
-}
 
 /* --- bands --- */
 
@@ -67,7 +46,7 @@ expect_edges(struct spec_bands_grid bands, const double *edge, size_t count)
 {
 	assert_int_equal(bands.count, count);
 	for (size_t i = 0; i <= count; i++)
-		expect_near(bands.edges_nm[i], edge[i], ROUNDED * edge[i], "an edge");
+		near(bands.edges_nm[i], edge[i], ROUNDED * edge[i], "an edge");
 	spec_bands_free(&bands);
 	assert_null(bands.wavelength_nm);
 	assert_null(bands.edges_nm);
@@ -185,7 +164,7 @@ expect_values(const double *value, const double *wanted, size_t count, double bo
 		char which[160];
 
 		snprintf(which, sizeof which, "%s, band %zu", what, i);
-		expect_near(value[i], wanted[i], bound, which);
+		near(value[i], wanted[i], bound, which);
 	}
 }
 
@@ -344,7 +323,7 @@ test_named_light(void **state)
 
 		snprintf(text, sizeof text, "\"spectrum L\" %s", names[i]);
 		value = sample("555:565:5", light(text), SPEC_BANDS_LIGHT);
-		expect_near(value[1], (102.023 + 6 * 100 + 98.1671) / 8, 1e-9, names[i]);
+		near(value[1], (102.023 + 6 * 100 + 98.1671) / 8, 1e-9, names[i]);
 		/* Absolute, and dark beyond 300 and 830 nm, but for half of the last bin. */
 		value = sample("280:850:10", light(text), SPEC_BANDS_LIGHT);
 		assert_true(value[0] == 0 && value[1] == 0 && value[57] == 0);
@@ -360,7 +339,7 @@ test_named_reflectance(void **state)
 		reflectance("\"spectrum reflectance\" \"15-red\""), SPEC_BANDS_RATIO);
 
 	(void)state;
-	expect_near(value[1], (.672 + 6 * .686 + .694) / 8, 1e-12, "15-red");
+	near(value[1], (.672 + 6 * .686 + .694) / 8, 1e-12, "15-red");
 	expect_refusal("375:780:5", reflectance("\"spectrum reflectance\" \"15-red\""),
 		SPEC_BANDS_RATIO, "t.pbrt:3:3: ", "375 nm");
 }
@@ -443,9 +422,9 @@ static void
 test_blackbody_peak(void **state)
 {
 	(void)state;
-	expect_near(blackbody_at(5000, 579.5544), 1, 1e-5, "5000 K");
-	expect_near(blackbody_at(10000, 289.7772), 1, 1e-5, "10000 K");
-	expect_near(blackbody_at(300, 9659.24), 1, 1e-5, "300 K");
+	near(blackbody_at(5000, 579.5544), 1, 1e-5, "5000 K");
+	near(blackbody_at(10000, 289.7772), 1, 1e-5, "10000 K");
+	near(blackbody_at(300, 9659.24), 1, 1e-5, "300 K");
 	/* By hand: it falls by 1 % over 5 % of the wavelength or so, on both sides. */
 	for (int i = -1; i <= 1; i += 2) {
 		double value = blackbody_at(5000, 579.5544 * (1 + .05 * i));
@@ -463,10 +442,10 @@ static void
 test_blackbody_ratio(void **state)
 {
 	(void)state;
-	expect_near(blackbody_at(5000, 500) / blackbody_at(5000, 1000), 1.7048, 1e-4,
+	near(blackbody_at(5000, 500) / blackbody_at(5000, 1000), 1.7048, 1e-4,
 		"500 to 1000 nm");
 	/* x = .144 and .072: 16 (1 - .072 / 2 + ...). */
-	expect_near(blackbody_at(1e6, 100) / blackbody_at(1e6, 200),
+	near(blackbody_at(1e6, 100) / blackbody_at(1e6, 200),
 		32 * expm1(.071938843875) / expm1(.14387768775), 1e-3, "100 to 200 nm");
 }
 
@@ -499,7 +478,7 @@ test_blackbody_means(void **state)
 				double wanted = planck_mean(temperature_k[i], from_nm,
 					from_nm + grids[j].width_nm);
 
-				expect_near(value[b], wanted, grids[j].bound * wanted,
+				near(value[b], wanted, grids[j].bound * wanted,
 					grids[j].text);
 				assert_true(value[b] > 0 && value[b] <= 1);
 			}
@@ -522,8 +501,8 @@ test_blackbody_below_nothing(void **state)
 		double wanted = .6 * planck_mean(temperature_k[i], 1e-3, 120);
 
 		snprintf(text, sizeof text, "\"blackbody L\" %g", temperature_k[i]);
-		expect_near(sample("20:620:200", light(text), SPEC_BANDS_LIGHT)[0], wanted,
-			1e-3, text);
+		near(sample("20:620:200", light(text), SPEC_BANDS_LIGHT)[0], wanted, 1e-3,
+			text);
 	}
 }
 
@@ -573,8 +552,8 @@ open_eye(void **state)
 	spec_curve_free(&observer);
 	spec_curve_free(&d65);
 	/* As Mitsuba has them, the latter by Simpson's rule from rows of 5 nm. */
-	expect_near(eye.sum_y, 106.8569, 1e-4, "the integral of y");
-	expect_near(eye.sum_y_d65, 10566.864, .5, "that of y under D65");
+	near(eye.sum_y, 106.8569, 1e-4, "the integral of y");
+	near(eye.sum_y_d65, 10566.864, .5, "that of y under D65");
 	return 0;
 }
 
@@ -651,7 +630,7 @@ test_rgb_greys(void **state)
 			SPEC_BANDS_RATIO);
 
 		for (int b = 0; b < 20; b++)
-			expect_near(value[b], greys[i], greys[i] * ROUNDED, "a grey");
+			near(value[b], greys[i], greys[i] * ROUNDED, "a grey");
 	}
 }
 
@@ -668,14 +647,14 @@ test_rgb_light_is_daylight(void **state)
 
 	(void)state;
 	value = sample("560:560:1", light(rgb_text("L", one, 1)), SPEC_BANDS_LIGHT);
-	expect_near(value[0], scale * 100.0047525, 1e-7, "white at 560 nm");
+	near(value[0], scale * 100.0047525, 1e-7, "white at 560 nm");
 	value = sample("560:560:1", light(rgb_text("L", one, 70)), SPEC_BANDS_LIGHT);
-	expect_near(value[0], 70 * scale * 100.0047525, 1e-5, "brighter");
+	near(value[0], 70 * scale * 100.0047525, 1e-5, "brighter");
 	/* As everywhere: between rows of 5 nm, where D65 is straight. */
 	value = sample(EYE, light(rgb_text("L", one, 1)), SPEC_BANDS_LIGHT);
 	for (int i = 0; i < STEPS; i++)
 		if (i % 5)
-			expect_near(value[i], scale * eye.d65[i], 1e-6, "white");
+			near(value[i], scale * eye.d65[i], 1e-6, "white");
 	/* D65 ends at 300 and 830 nm. */
 	value = sample("200:1000:100", light(rgb_text("L", one, 1)), SPEC_BANDS_LIGHT);
 	assert_true(value[0] == 0 && value[7] == 0 && value[8] == 0);
@@ -728,11 +707,10 @@ test_rgb_rule(void **state)
 		memcpy(white, value, sizeof white);
 		value = sample(EYE, light(rgb_text("L", bright[i], 1)), SPEC_BANDS_LIGHT);
 		for (int b = 0; b < STEPS - 1; b++)
-			expect_near(value[b], twice * part[b] * white[b], 2e-5 * twice,
-				"a light");
+			near(value[b], twice * part[b] * white[b], 2e-5 * twice, "a light");
 		value = sample(EYE, k(rgb_text("k", bright[i], 1)), SPEC_BANDS_INDEX);
 		for (int b = 0; b < STEPS; b++)
-			expect_near(value[b], twice * part[b], 2e-5 * twice, "an index");
+			near(value[b], twice * part[b], 2e-5 * twice, "an index");
 	}
 }
 
@@ -751,7 +729,7 @@ test_rgb_index_is_at_the_middle(void **state)
 		const double *value = sample_in(bands_at(&nm, 1, SPEC_EXTRAPOLATE_REFUSE),
 			eta(rgb_text("eta", rgb, 1)), SPEC_BANDS_INDEX);
 
-		expect_near(wide[b], value[0], 1e-4, "an index");
+		near(wide[b], value[0], 1e-4, "an index");
 	}
 }
 

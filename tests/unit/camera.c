@@ -3,20 +3,13 @@
  * space, x is to the right and y upwards, in a left-handed world; pixels are counted from
  * the film's upper left corner.
  */
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdio.h>
-#include <string.h>
-
-#include <cmocka.h>
 
 #include "render/camera.h"
 #include "scene/parse.h"
 
-#define COUNT(list) (sizeof(list) / sizeof *(list))
+#include "check.h"
+
 #define PI 3.14159265358979323846
 #define ROUNDED 1e-12
 
@@ -51,13 +44,6 @@ static struct spec_ray
 ray_at(struct view *view, double x, double y)
 {
 	return spec_camera_ray(&view->camera, x, y, &view->sampler);
-}
-
-static void
-expect_near(double value, double wanted, double bound, const char *what)
-{
-	if (!(fabs(value - wanted) <= bound))
-		fail_msg("%s: %.15g instead of %.15g +- %.2g", what, value, wanted, bound);
 }
 
 static void
@@ -407,10 +393,9 @@ expect_focus(struct view *view, const struct place *place, double x, double y)
 
 		spec_sampler_start(&view->sampler, 1, (int)x, (int)y, i);
 		ray = ray_at(view, x, y);
-		expect_near(
-			sqrt(along(ray.direction, ray.direction)), 1, ROUNDED, place->text);
+		near(sqrt(along(ray.direction, ray.direction)), 1, ROUNDED, place->text);
 		ray = in_camera(place, ray);
-		expect_near(ray.origin.z, 0, ROUNDED, place->text);
+		near(ray.origin.z, 0, ROUNDED, place->text);
 		assert_true(hypot(ray.origin.x, ray.origin.y) <= lens * (1 + ROUNDED));
 		assert_true(ray.direction.z > 0);
 		t = focus / ray.direction.z;
@@ -475,10 +460,9 @@ test_lens_and_fov(void **state)
 		spec_sampler_start(&view.sampler, 1, 0, 0, i);
 		ray = ray_at(&view, 2, 1);
 		t = 10 / ray.direction.z;
-		expect_near(ray.origin.x + t * ray.direction.x, 5.77350269189625765,
-			ROUNDED * 10, "x in focus");
-		expect_near(
-			ray.origin.y + t * ray.direction.y, 0, ROUNDED * 10, "y in focus");
+		near(ray.origin.x + t * ray.direction.x, 5.77350269189625765, ROUNDED * 10,
+			"x in focus");
+		near(ray.origin.y + t * ray.direction.y, 0, ROUNDED * 10, "y in focus");
 	}
 	close_view(&view);
 }
@@ -497,9 +481,9 @@ test_lens_defaults(void **state)
 		spec_sampler_start(&view.sampler, 1, 0, 0, i);
 		ray = ray_at(&view, 1, 1);
 		assert_true(ray.origin.x != 0 && ray.origin.y != 0);
-		expect_near(ray.direction.x / ray.direction.z, -ray.origin.x / 1e6, ROUNDED,
+		near(ray.direction.x / ray.direction.z, -ray.origin.x / 1e6, ROUNDED,
 			"x/z");
-		expect_near(ray.direction.y / ray.direction.z, -ray.origin.y / 1e6, ROUNDED,
+		near(ray.direction.y / ray.direction.z, -ray.origin.y / 1e6, ROUNDED,
 			"y/z");
 	}
 	close_view(&view);
@@ -557,11 +541,11 @@ test_lens_is_uniform(void **state)
 		for (int j = 0; j < RINGS; j++) {
 			double off = (count[i][j] - PIXELS * share) / deviation;
 
-			expect_near(off, 0, 5, "a cell's count in deviations");
+			near(off, 0, 5, "a cell's count in deviations");
 			squares += off * off;
 		}
 	}
-	expect_near(squares, 63, 5 * sqrt(126), "all cells");
+	near(squares, 63, 5 * sqrt(126), "all cells");
 	close_view(&view);
 }
 

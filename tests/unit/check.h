@@ -11,6 +11,8 @@
 
 #include <cmocka.h>
 
+#include "base/error.h"
+
 #define COUNT(list) (sizeof(list) / sizeof *(list))
 
 /* Fails unless got lies within the tolerance of what is wanted; NaN never does. */
@@ -19,6 +21,14 @@ near(double got, double wanted, double tolerance, const char *what)
 {
 	if (!(fabs(got - wanted) <= tolerance))
 		fail_msg("%s: got %.17g, wanted %.17g +- %g", what, got, wanted, tolerance);
+}
+
+/* Fails with the error's message unless all went well. */
+static inline void
+check(enum spec_status status, const struct spec_error *error)
+{
+	if (status != SPEC_OK)
+		fail_msg("%s", error->message);
 }
 
 static inline void

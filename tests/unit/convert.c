@@ -20,13 +20,6 @@
 /* Sums in double of a few terms round far below that: this leaves room for both. */
 #define CLOSE (1.01 * FLOAT_ROUNDING)
 
-static void
-check(enum spec_status status, const struct spec_error *error)
-{
-	if (status != SPEC_OK)
-		fail_msg("%s", error->message);
-}
-
 /* An image in a file, whose samples a function gives by channel and pixel from 0. */
 typedef float sample_of(const struct spec_channel *channel, int x, int y);
 

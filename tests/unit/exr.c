@@ -4,10 +4,8 @@
  */
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include <fcntl.h>
-#include <math.h>
 #include <openexr.h>
 #include <stdatomic.h>
 #include <sys/wait.h>
@@ -20,6 +18,7 @@
 #include "image/reader.h"
 #include "image/writer.h"
 
+#include "check.h"
 #include "files.h"
 
 #define MOST_CHANNELS 8
@@ -235,13 +234,6 @@ test_half_rounding(void **state)
 }
 
 /* Writing with the suite's writer. */
-
-static void
-check(enum spec_status status, const struct spec_error *error)
-{
-	if (status != SPEC_OK)
-		fail_msg("%s", error->message);
-}
 
 static struct spec_image
 image_of(const struct shape *shape)

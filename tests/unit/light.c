@@ -1,20 +1,15 @@
 /* Light sources: what they send against closed forms, and how they are chosen. */
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
-
-#include <cmocka.h>
 
 #include "image/save.h"
 #include "render/light.h"
 #include "scene/scene.h"
 #include "scene/transform.h"
+
+#include "check.h"
+#include "shapes.h"
 
 #define PI 3.14159265358979323846
 #define BANDS 4
@@ -38,13 +33,6 @@ struct fixture {
 	char picture[64];     /* a file's name, or "" */
 	const char *quantity; /* of the picture, or null */
 };
-
-static void
-check(enum spec_status status, const struct spec_error *error)
-{
-	if (status != SPEC_OK)
-		fail_msg("%s", error->message);
-}
 
 static int
 set_up(void **state)
@@ -129,23 +117,6 @@ add_shape(struct fixture *f, enum spec_scene_shape_kind kind)
 	return shape;
 }
 
-/* Scaled, then turned, then moved. */
-struct place {
-	double scale[3], turn_deg, axis[3], move[3];
-};
-
-static struct spec_transform
-transform_of(const struct place *place)
-{
-	struct spec_transform t = spec_transform_identity();
-	struct spec_error error;
-
-	check(spec_transform_translate(&t, place->move, &error), &error);
-	check(spec_transform_rotate(&t, place->turn_deg, place->axis, &error), &error);
-	check(spec_transform_scale(&t, place->scale, &error), &error);
-	return t;
-}
-
 static struct spec_vector
 through(const struct spec_transform *transform, struct spec_vector v, int is_point)
 {
@@ -159,13 +130,6 @@ through(const struct spec_transform *transform, struct spec_vector v, int is_poi
 }
 
 /* --- irradiance --- */
-
-static void
-expect_near(double value, double wanted, double bound, const char *what)
-{
-	if (!(fabs(value - wanted) <= bound))
-		fail_msg("%s: %.9g instead of %.9g +- %.2g", what, value, wanted, bound);
-}
 
 static double
 value_of(const struct spec_light_sample *light, size_t band)
@@ -191,7 +155,7 @@ estimate(struct fixture *f, struct spec_vector point, struct spec_vector normal,
 		spec_sampler_start(&sampler, f->seed, (int)(i / 64), 0, i % 64);
 		if (!spec_lights_sample(f->lights, point, &sampler, &light))
 			continue;
-		expect_near(spec_vector_length(light.direction), 1, 1e-9, "a direction");
+		near(spec_vector_length(light.direction), 1, 1e-9, "a direction");
 		cosine = fmax(0, spec_vector_dot(light.direction, normal));
 		sum += cosine * value_of(&light, 1);
 		squares += pow(cosine * value_of(&light, 1), 2);
@@ -207,7 +171,7 @@ expect_irradiance(struct fixture *f, struct spec_vector point, struct spec_vecto
 	double mean, deviation;
 
 	estimate(f, point, normal, SAMPLES, &mean, &deviation);
-	expect_near(mean, wanted, SIGMAS * deviation + ROUNDED * wanted, what);
+	near(mean, wanted, SIGMAS * deviation + ROUNDED * wanted, what);
 	if (deviation > 0.1 * wanted)
 		fail_msg("%s: too noisy to say anything", what);
 }
@@ -388,15 +352,6 @@ test_disk(void **state)
 }
 
 /* --- meshes --- */
-
-static void *
-copy_of(const void *list, size_t size)
-{
-	void *copy = malloc(size);
-
-	assert_non_null(copy);
-	return memcpy(copy, list, size);
-}
 
 /* Two triangles in z = 0 of different sizes, outward along z. */
 static struct spec_scene_shape *
@@ -667,11 +622,11 @@ test_sky_lookup(void **state)
 				double here = sky_at(x, y, 500);
 				double next = sky_at((x + 1) % SKY_WIDTH, y, 500);
 
-				expect_near(sky_radiance(f, d), here / 2, 1e-5 * here,
+				near(sky_radiance(f, d), here / 2, 1e-5 * here,
 					"a pixel's middle");
 				d = spec_vector_unit(through(
 					&light->world, sky_direction(x + 1, y + 0.5), 0));
-				expect_near(sky_radiance(f, d), (here + next) / 4,
+				near(sky_radiance(f, d), (here + next) / 4,
 					1e-5 * (here + next), "a pixel's edge");
 			}
 		}
@@ -716,7 +671,7 @@ test_sky(void **state)
 		wanted = sky_irradiance(f, &light->world, normal);
 		estimate(f, (struct spec_vector){1, 2, 3}, normal, 8 * SAMPLES, &mean,
 			&deviation);
-		expect_near(mean, wanted, SIGMAS * deviation + 1e-4 * wanted, "a sky");
+		near(mean, wanted, SIGMAS * deviation + 1e-4 * wanted, "a sky");
 	}
 }
 
@@ -839,10 +794,10 @@ test_densities(void **state)
 			count[2]++;
 			density = spec_lights_surroundings_density(
 				f->lights, light.direction);
-			expect_near(density / light.density, 1, 1e-6, "the sky's density");
+			near(density / light.density, 1, 1e-6, "the sky's density");
 			spec_lights_add_surroundings(
 				f->lights, light.direction, NULL, 1, sky);
-			expect_near(value_of(&light, 2) * density, sky[2], 1e-6,
+			near(value_of(&light, 2) * density, sky[2], 1e-6,
 				"the sky's light");
 			continue;
 		}
@@ -855,11 +810,11 @@ test_densities(void **state)
 			f->lights, &hit, point, light.direction, &density);
 		assert_non_null(emitted);
 		/* Meshes are met in single precision. */
-		expect_near(density / light.density, 1, 1e-4, "an area's density");
-		expect_near(value_of(&light, 2) * light.density, emitted[2], 1e-5,
+		near(density / light.density, 1, 1e-4, "an area's density");
+		near(value_of(&light, 2) * light.density, emitted[2], 1e-5,
 			"an area's light");
 		/* A mesh may be met a little before. */
-		expect_near(light.distance, hit.distance, 1e-4 * hit.distance, "distance");
+		near(light.distance, hit.distance, 1e-4 * hit.distance, "distance");
 	}
 	for (int i = 0; i < 4; i++)
 		assert_true(count[i] > 100);
@@ -889,7 +844,7 @@ test_sum(void **state)
 			wanted += 121 / (square * square) * rho * 0.8 / 100 * 2 * PI / 100;
 		}
 	estimate(f, point, up, 16 * SAMPLES, &mean, &deviation);
-	expect_near(mean, wanted, SIGMAS * deviation, "all lights");
+	near(mean, wanted, SIGMAS * deviation, "all lights");
 	assert_true(deviation < 0.01 * wanted);
 }
 
@@ -930,7 +885,7 @@ test_chances(void **state)
 		assert_true(chance[i] > 0);
 		sum += chance[i];
 	}
-	expect_near(sum, 1, 1e-5, "the sum of all chances");
+	near(sum, 1, 1e-5, "the sum of all chances");
 }
 
 /* What sends nothing is never chosen, and does not take from what others send. */
@@ -955,8 +910,8 @@ test_dark_lights(void **state)
 		spec_sampler_start(&sampler, 2, 0, 0, i);
 		assert_true(spec_lights_sample(
 			f->lights, (struct spec_vector){0, 0, -2}, &sampler, &sample));
-		expect_near(sample.distance, 4, 1e-12, "distance");
-		expect_near(value_of(&sample, 0), 4 / 16., 1e-7, "irradiance");
+		near(sample.distance, 4, 1e-12, "distance");
+		near(value_of(&sample, 0), 4 / 16., 1e-7, "irradiance");
 	}
 	/* All of them dark, and none at all. */
 	for (int lights = 4; lights >= 0; lights -= 4) {
@@ -988,14 +943,14 @@ test_small_lights(void **state)
 	assert_int_equal(spec_lights_small(f->lights), 2);
 	spec_lights_reach(
 		f->lights, 0, (struct spec_vector){4, 0, 0}, &direction, &distance, value);
-	expect_near(distance, 5, 1e-12, "distance");
-	expect_near(direction.x, -0.8, 1e-12, "direction");
-	expect_near(value[3], 4 / 25., 1e-7, "irradiance");
+	near(distance, 5, 1e-12, "distance");
+	near(direction.x, -0.8, 1e-12, "direction");
+	near(value[3], 4 / 25., 1e-7, "irradiance");
 	spec_lights_reach(
 		f->lights, 1, (struct spec_vector){4, 0, 0}, &direction, &distance, value);
 	assert_true(distance == INFINITY);
-	expect_near(direction.x, 0.6, 1e-12, "direction");
-	expect_near(value[3], 0.1, 1e-8, "irradiance");
+	near(direction.x, 0.6, 1e-12, "direction");
+	near(value[3], 0.1, 1e-8, "irradiance");
 }
 
 #define TEST(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)

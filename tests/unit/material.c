@@ -1,21 +1,14 @@
 /* How surfaces scatter: what is chosen, how often, and what it weighs. */
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
-
-#include <cmocka.h>
 
 #include "optics/fresnel.h"
 #include "render/material.h"
 #include "scene/scene.h"
 
+#include "check.h"
+
 #define PI 3.14159265358979323846
-#define COUNT(list) (sizeof(list) / sizeof *(list))
 #define MOST_BANDS 32
 
 /*
@@ -33,13 +26,6 @@ struct fixture {
 	struct spec_surface surface;
 	double room[2 * MOST_BANDS];
 };
-
-static void
-check(enum spec_status status, const struct spec_error *error)
-{
-	if (status != SPEC_OK)
-		fail_msg("%s", error->message);
-}
 
 static struct spec_scene_spectrum
 constant(double value)
@@ -135,13 +121,6 @@ look(struct fixture *f, struct spec_vector eye)
 		.eye = eye,
 		.cosine = spec_vector_dot(eye, f->hit.shading),
 		.room = f->room};
-}
-
-static void
-expect_near(double value, double wanted, double bound, const char *what)
-{
-	if (!(fabs(value - wanted) <= bound))
-		fail_msg("%s: %.9g instead of %.9g +- %.2g", what, value, wanted, bound);
 }
 
 static const float whole[MOST_BANDS] = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1,
@@ -258,14 +237,14 @@ sample_all(const struct fixture *f, struct integrals *sums, struct integrals *sq
 
 		if (density < 0)
 			continue;
-		expect_near(spec_vector_length(d), 1, 1e-12, what);
+		near(spec_vector_length(d), 1, 1e-12, what);
 		again = evaluate(f, d, value);
 		/* The direction is rounded on its way out of the frame and back. */
 		if (d.z > 1e-6) {
-			expect_near(again / density, 1, 1e-6, "density of a sample");
+			near(again / density, 1, 1e-6, "density of a sample");
 			for (size_t j = 0; j < f->bands.count; j++)
-				expect_near(weight[j] * density, value[j],
-					1e-5 * value[j] + 1e-30, "f cos of a sample");
+				near(weight[j] * density, value[j], 1e-5 * value[j] + 1e-30,
+					"f cos of a sample");
 		}
 		add_direction(&one, d, 1, weight[0]);
 		for (size_t j = 0; j < MOMENTS; j++) {
@@ -299,7 +278,7 @@ expect_agreement(const struct fixture *f, const char *what)
 		double sigma = sqrt(fmax(variance, 0) / SAMPLES);
 
 		snprintf(name, sizeof name, "%s: mean of %s", what, names[i]);
-		expect_near(got.moment[i], wanted.moment[i],
+		near(got.moment[i], wanted.moment[i],
 			SIGMAS * sigma + QUADRATURE * fmax(1, wanted.moment[i]), name);
 	}
 	for (size_t i = 0; i < CELLS; i++) {
@@ -307,8 +286,8 @@ expect_agreement(const struct fixture *f, const char *what)
 
 		/* 5 standard errors: of 48 cells in 40 cases one false alarm in 900. */
 		snprintf(name, sizeof name, "%s: samples in cell %zu", what, i);
-		expect_near(got.cell[i], expected,
-			5 * sqrt(expected + 1) + QUADRATURE * SAMPLES, name);
+		near(got.cell[i], expected, 5 * sqrt(expected + 1) + QUADRATURE * SAMPLES,
+			name);
 	}
 }
 
@@ -395,8 +374,8 @@ test_other_side(void **state)
 		density = choose(f, whole, 3, i, &d, weight);
 		f->hit.normal.z = f->hit.shading.z = -1;
 		look(f, at_angle(50, 70));
-		expect_near(choose(f, whole, 3, i, &other, same), density,
-			1e-9 * fabs(density), "density on the other side");
+		near(choose(f, whole, 3, i, &other, same), density, 1e-9 * fabs(density),
+			"density on the other side");
 		f->hit.normal.z = f->hit.shading.z = 1;
 		if (density > 0) {
 			assert_true(d.z > 0);
@@ -422,8 +401,8 @@ expect_reciprocity(struct fixture *f, double bound, const char *what)
 		look(f, b);
 		assert_true(evaluate(f, a, back) > 0);
 		for (size_t j = 0; j < f->bands.count; j++)
-			expect_near(there[j] / b.z, back[j] / a.z,
-				bound * fabs(back[j] / a.z), what);
+			near(there[j] / b.z, back[j] / a.z, bound * fabs(back[j] / a.z),
+				what);
 	}
 }
 
@@ -466,7 +445,7 @@ test_energy(void **state)
 	/* Alpha 1 from above: D = 1/pi, G = 2c/(1+c), and 2 pi times the integral of D G/4. */
 	look(f, at_angle(0, 0));
 	integrate(f, &sums);
-	expect_near(sums.moment[MOMENTS - 1], 1 - log(2), 1e-4, "white furnace of alpha 1");
+	near(sums.moment[MOMENTS - 1], 1 - log(2), 1e-4, "white furnace of alpha 1");
 }
 
 /* Light does not get through a surface past a bent shading normal. */
@@ -512,10 +491,10 @@ test_smooth_metal(void **state)
 
 		look(f, at_angle(angle, 20));
 		assert_true(choose(f, whole, 1, 0, &d, weight) == 0);
-		expect_near(spec_vector_length(spec_vector_subtract(d, mirror)), 0, 1e-12,
+		near(spec_vector_length(spec_vector_subtract(d, mirror)), 0, 1e-12,
 			"mirror direction");
 		for (size_t i = 0; i < f->bands.count; i++)
-			expect_near(weight[i], (wanted.s + wanted.p) / 2, 1e-7, "weight");
+			near(weight[i], (wanted.s + wanted.p) / 2, 1e-7, "weight");
 	}
 }
 
@@ -566,19 +545,19 @@ expect_dielectric(struct fixture *f, double angle, int inside)
 		assert_true(choose(f, whole, 1, i, &d, weight) == 0);
 		if (d.z > 0) {
 			mirrored++;
-			expect_near(spec_vector_length(spec_vector_subtract(d, mirror)), 0,
-				1e-12, "mirror direction");
+			near(spec_vector_length(spec_vector_subtract(d, mirror)), 0, 1e-12,
+				"mirror direction");
 		} else {
 			assert_true(sine < 1);
 			through = at_angle(180 - asin(sine) * 180 / PI, 200);
-			expect_near(spec_vector_length(spec_vector_subtract(d, through)), 0,
-				1e-7, "Snell's direction");
+			near(spec_vector_length(spec_vector_subtract(d, through)), 0, 1e-7,
+				"Snell's direction");
 			wanted = n1 * n1 / (n2 * n2);
 		}
 		for (size_t j = 0; j < f->bands.count; j++)
-			expect_near(weight[j], wanted, 1e-6, "weight");
+			near(weight[j], wanted, 1e-6, "weight");
 	}
-	expect_near(mirrored / (double)TRIES, share,
+	near(mirrored / (double)TRIES, share,
 		SIGMAS * sqrt(share * (1 - share) / TRIES) + 1e-12, "share mirrored");
 }
 
@@ -653,15 +632,15 @@ expect_dispersion(struct fixture *f, double angle, int inside, const float *thro
 		double square = weight_squares[j] / TRIES - mean * mean;
 
 		if (!(throughput[j] > 0)) {
-			expect_near(mean, 0, 0, "weight of a band that carries nothing");
+			near(mean, 0, 0, "weight of a band that carries nothing");
 			continue;
 		}
-		expect_near(mean, r + (1 - r) * factor, SIGMAS * sqrt(square / TRIES),
+		near(mean, r + (1 - r) * factor, SIGMAS * sqrt(square / TRIES),
 			"mean weight of a band");
 		x = -r * sin(angle * PI / 180) - (1 - r) * factor * sine;
 		mean = x_sum[j] / TRIES;
 		square = x_squares[j] / TRIES - mean * mean;
-		expect_near(mean, x, SIGMAS * sqrt(square / TRIES) + 1e-12,
+		near(mean, x, SIGMAS * sqrt(square / TRIES) + 1e-12,
 			"mean direction of a band");
 	}
 }
@@ -727,7 +706,7 @@ expect_film(struct fixture *f, double angle, int inside, double thickness_nm,
 		assert_true(choose(f, throughput, 1, i, &d, weight) == 0);
 		wanted = d.z > 0 ? at_angle(angle, 200)
 				 : spec_vector_negate(at_angle(angle, 20));
-		expect_near(spec_vector_length(spec_vector_subtract(d, wanted)), 0, 1e-12,
+		near(spec_vector_length(spec_vector_subtract(d, wanted)), 0, 1e-12,
 			"direction");
 		for (size_t j = 0; j < f->bands.count; j++) {
 			sum[d.z < 0][j] += weight[j];
@@ -743,8 +722,7 @@ expect_film(struct fixture *f, double angle, int inside, double thickness_nm,
 			double mean = sum[k][j] / TRIES;
 			double square = squares[k][j] / TRIES - mean * mean;
 
-			expect_near(mean, factor[k],
-				SIGMAS * sqrt(fmax(square, 0) / TRIES) + 1e-6,
+			near(mean, factor[k], SIGMAS * sqrt(fmax(square, 0) / TRIES) + 1e-6,
 				k ? "through" : "mirrored");
 		}
 	}
@@ -818,8 +796,7 @@ test_interface(void **state)
 	make(f, SPEC_SCENE_INTERFACE);
 	look(f, at_angle(50, 10));
 	assert_true(choose(f, whole, 1, 0, &d, weight) == 0);
-	expect_near(spec_vector_length(spec_vector_add(d, f->surface.eye)), 0, 1e-15,
-		"direction");
+	near(spec_vector_length(spec_vector_add(d, f->surface.eye)), 0, 1e-15, "direction");
 	for (size_t i = 0; i < f->bands.count; i++)
 		assert_true(weight[i] == 1);
 }

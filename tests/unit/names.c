@@ -25,13 +25,6 @@ text_of(const struct spec_image *image, const char *name)
 /* Each operation of the reading rounds once; there are at most four. */
 #define ROUNDING (4 * 0x1p-53)
 
-static void
-check(enum spec_status status, const struct spec_error *error)
-{
-	if (status != SPEC_OK)
-		fail_msg("%s", error->message);
-}
-
 static struct spec_channel
 read_name(const char *name)
 {

@@ -1,36 +1,12 @@
 /* lib/spectrum/operate, common, values: arithmetic with spectra of all kinds. */
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdlib.h>
-#include <string.h>
-
-#include <cmocka.h>
 
 #include "spectrum/operate.h"
 
-#define COUNT(list) (sizeof(list) / sizeof *(list))
+#include "check.h"
+#include "spectra.h"
+
 #define KINDS 6
-
-static void
-near(double got, double wanted, double tolerance, const char *what)
-{
-	if (!(fabs(got - wanted) <= tolerance))
-		fail_msg("%s: got %.17g, wanted %.17g +- %g", what, got, wanted, tolerance);
-}
-
-static double
-value_at(const struct spec_spectrum *spectrum, double nm)
-{
-	double value;
-
-	assert_int_equal(spec_spectrum_sample(
-				 spectrum, SPEC_EXTRAPOLATE_REFUSE, &nm, 1, &value, NULL),
-		SPEC_OK);
-	return value;
-}
 
 static struct spec_spectrum
 combine(const struct spec_spectrum *a, enum spec_operator op, const struct spec_spectrum *b,

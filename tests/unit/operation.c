@@ -1,15 +1,6 @@
 /* Interpolation, bins, units and arithmetic of curves, against closed forms. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
-
-#include <math.h>
-
-#include <cmocka.h>
 
 #include "spectrum/abscissa.h"
 #include "spectrum/air.h"
@@ -20,15 +11,9 @@
 #include "spectrum/product.h"
 #include "spectrum/rebin.h"
 
-#define COUNT(list) (sizeof(list) / sizeof *(list))
-#define EPSILON 0x1p-53
+#include "check.h"
 
-static void
-check(enum spec_status status, const struct spec_error *error)
-{
-	if (status != SPEC_OK)
-		fail_msg("%s", error->message);
-}
+#define EPSILON 0x1p-53
 
 static void
 assert_near(double found, double wanted, double tolerance)

@@ -1,14 +1,6 @@
 /* Daylight in scenes: where the sun is, what a plane gets of it, and how it is chosen. */
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
-
-#include <cmocka.h>
 
 #include "place/coordinates.h"
 #include "place/instant.h"
@@ -17,11 +9,11 @@
 #include "render/render.h"
 #include "scene/parse.h"
 
+#include "check.h"
 #include "random.h"
 
 #define PI 3.14159265358979323846
 #define RADIANS (PI / 180)
-#define COUNT(list) (sizeof(list) / sizeof *(list))
 #define MOST_BANDS 64
 
 /* Noon in Leuven, with the sun in the south-east, 49 degrees high. */
@@ -29,13 +21,6 @@
 #define NOON LEUVEN "\"string time\" \"2005-05-17T12:00:00+02:00\" "
 #define LATE LEUVEN "\"string time\" \"2005-05-17T20:30:00+02:00\" " /* 6.6 degrees */
 #define DAYLIGHT "LightSource \"daylight\" "
-
-static void
-check(enum spec_status status, const struct spec_error *error)
-{
-	if (status != SPEC_OK)
-		fail_msg("%s", error->message);
-}
 
 static void
 expect_near(double value, double wanted, double tolerance, const char *what)

@@ -187,7 +187,7 @@ wanted_at(const struct kind *kind, int x, int y, double (*light)(double), double
 }
 
 static void
-check(const char *name, const struct kind *kind, double (*light)(double),
+check_picture(const char *name, const struct kind *kind, double (*light)(double),
 	const struct readback *back)
 {
 	static const char *const order[] = {
@@ -247,7 +247,7 @@ every_colour_and_depth(void **state)
 			continue;
 		save_png("a.png", &kind);
 		reads(&back, "a.png", &settings);
-		check("a.png", &kind, from_srgb, &back);
+		check_picture("a.png", &kind, from_srgb, &back);
 		readback_close(&back);
 	}
 }
@@ -303,7 +303,7 @@ transfer_functions_are_honoured(void **state)
 		kind.depth = i % 2 ? 16 : 8;
 		save_png("a.png", &kind);
 		reads(&back, "a.png", &settings);
-		check("a transfer function", &kind, cases[i / 2].light, &back);
+		check_picture("a transfer function", &kind, cases[i / 2].light, &back);
 		readback_close(&back);
 	}
 }
@@ -416,7 +416,7 @@ lines_may_be_read_again(void **state)
 		reads(&back, "a.png", &settings);
 		free(back.value);
 		assert_int_equal(readback_lines(&back, 3, &error), SPEC_OK);
-		check("a second time", &kind, from_srgb, &back);
+		check_picture("a second time", &kind, from_srgb, &back);
 		readback_close(&back);
 	}
 }

@@ -1,16 +1,8 @@
 /* Light transport against closed forms, and rendered files: scenes are built by hand. */
 #include <float.h>
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
-
-#include <cmocka.h>
 
 #include "image/names.h"
 #include "image/reader.h"
@@ -18,6 +10,9 @@
 #include "render/render.h"
 #include "scene/scene.h"
 #include "scene/transform.h"
+
+#include "check.h"
+#include "shapes.h"
 
 #define PI 3.14159265358979323846
 
@@ -34,13 +29,6 @@ struct fixture {
 	struct spec_render render;
 	struct spec_path_room *room;
 };
-
-static void
-check(enum spec_status status, const struct spec_error *error)
-{
-	if (status != SPEC_OK)
-		fail_msg("%s", error->message);
-}
 
 static struct spec_transform
 placed(double x, double y, double z)
@@ -179,12 +167,6 @@ expect(struct fixture *f, const struct spec_ray *ray, double wanted, unsigned sa
 	if (deviation > 0.05 * wanted)
 		fail_msg(
 			"%s: too noisy to say anything: %g of %g", what, deviation, wanted);
-}
-
-static struct spec_ray
-ray_to(struct spec_vector from, struct spec_vector to)
-{
-	return (struct spec_ray){from, spec_vector_unit(spec_vector_subtract(to, from))};
 }
 
 /* --- a convex body in uniform surroundings sends back its albedo --- */

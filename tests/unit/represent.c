@@ -1,38 +1,14 @@
 /* lib/spectrum/represent, peaks: from one representation of a spectrum to another. */
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdlib.h>
-#include <string.h>
-
-#include <cmocka.h>
 
 #include "spectrum/lookup.h"
 #include "spectrum/represent.h"
 
-#define COUNT(list) (sizeof(list) / sizeof *(list))
+#include "check.h"
+#include "spectra.h"
+
 #define PI 3.141592653589793
 #define TO(...) (&(struct spec_representation){__VA_ARGS__})
-
-static void
-near(double got, double wanted, double tolerance, const char *what)
-{
-	if (!(fabs(got - wanted) <= tolerance))
-		fail_msg("%s: got %.17g, wanted %.17g +- %g", what, got, wanted, tolerance);
-}
-
-static double
-value_at(const struct spec_spectrum *spectrum, double nm)
-{
-	double value;
-
-	assert_int_equal(spec_spectrum_sample(
-				 spectrum, SPEC_EXTRAPOLATE_REFUSE, &nm, 1, &value, NULL),
-		SPEC_OK);
-	return value;
-}
 
 static double
 energy(const struct spec_spectrum *spectrum)

@@ -1,26 +1,13 @@
 /* lib/spectrum/spectrum, interpolate, fourier: kinds of spectra, their values and means. */
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdlib.h>
-#include <string.h>
-
-#include <cmocka.h>
 
 #include "spectrum/fourier.h"
 #include "spectrum/spectrum.h"
 
-#define COUNT(list) (sizeof(list) / sizeof *(list))
-#define PI 3.141592653589793
+#include "check.h"
+#include "spectra.h"
 
-static void
-near(double got, double wanted, double tolerance, const char *what)
-{
-	if (!(fabs(got - wanted) <= tolerance))
-		fail_msg("%s: got %.17g, wanted %.17g +- %g", what, got, wanted, tolerance);
-}
+#define PI 3.141592653589793
 
 static double
 draw(void)
@@ -29,17 +16,6 @@ draw(void)
 
 	state = state * 6364136223846793005u + 1442695040888963407u;
 	return (double)(state >> 11) * 0x1p-53;
-}
-
-static double
-value_at(const struct spec_spectrum *spectrum, double nm)
-{
-	double value;
-
-	assert_int_equal(spec_spectrum_sample(
-				 spectrum, SPEC_EXTRAPOLATE_REFUSE, &nm, 1, &value, NULL),
-		SPEC_OK);
-	return value;
 }
 
 /* The integral of the smooth part, by Simpson's rule between the breaks of a table. */

@@ -1,31 +1,17 @@
 /* lib/scene/represented, and lib/render/bands on it: a thesis' types of spectra in scenes. */
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
-
-#include <cmocka.h>
 
 #include "render/bands.h"
 #include "scene/parse.h"
 #include "spectrum/lookup.h"
 #include "spectrum/mean.h"
 
-#define COUNT(list) (sizeof(list) / sizeof *(list))
+#include "check.h"
+
 #define LIGHT "WorldBegin LightSource \"infinite\" "
 #define PAINT "WorldBegin Material \"diffuse\" "
 #define GLASS "WorldBegin Material \"dielectric\" "
-
-static void
-near(double got, double wanted, double tolerance, const char *what)
-{
-	if (!(fabs(got - wanted) <= tolerance))
-		fail_msg("%s: got %.17g, wanted %.17g +- %g", what, got, wanted, tolerance);
-}
 
 static struct spec_scene
 parse(const char *text)

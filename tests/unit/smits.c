@@ -1,13 +1,4 @@
 /* lib/colour/smits and basis: spectra for RGB colours that are sums of tabulated ones. */
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <string.h>
-
-#include <cmocka.h>
-
 #include "colour/difference.h"
 #include "colour/observer.h"
 #include "colour/smits.h"
@@ -15,20 +6,13 @@
 #include "colour/upsample.h"
 #include "spectrum/lookup.h"
 
-#define COUNT(list) (sizeof(list) / sizeof *(list))
+#include "check.h"
 
 static struct spec_curve observer, smits, mallett;
 
 /* The colours of Smits' spectra, in the order of enum spec_smits. */
 static const double corner[SPEC_SMITS_COLUMNS][3] = {
 	{1, 1, 1}, {0, 1, 1}, {1, 0, 1}, {1, 1, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-
-static void
-near(double got, double wanted, double tolerance, const char *what)
-{
-	if (!(fabs(got - wanted) <= tolerance))
-		fail_msg("%s: got %.17g, wanted %.17g +- %g", what, got, wanted, tolerance);
-}
 
 /*
  * Linear RGB of a spectrum as light, by the observer's table within the curve's range, where

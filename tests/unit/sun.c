@@ -1,25 +1,10 @@
 /* lib/colour/sun: three Gaussians for an RGB colour. */
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
-
 #include "colour/difference.h"
 #include "colour/sun.h"
 
-#define COUNT(list) (sizeof(list) / sizeof *(list))
+#include "check.h"
 
 static struct spec_sun light, factor;
-
-static void
-near(double got, double wanted, double tolerance, const char *what)
-{
-	if (!(fabs(got - wanted) <= tolerance))
-		fail_msg("%s: got %.17g, wanted %.17g +- %g", what, got, wanted, tolerance);
-}
 
 /* DeltaE2000 between a colour and its spectrum. */
 static double

@@ -1,13 +1,5 @@
 /* lib/image/upsampling: rows of RGB pixels become bands. */
 #include <float.h>
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <string.h>
-
-#include <cmocka.h>
 
 #include "colour/basis.h"
 #include "colour/smits.h"
@@ -15,7 +7,8 @@
 #include "colour/upsample.h"
 #include "image/upsampling.h"
 
-#define COUNT(list) (sizeof(list) / sizeof *(list))
+#include "check.h"
+
 #define BANDS 81
 #define WIDTH 700 /* blocks of 256 pixels, and some more */
 
@@ -23,13 +16,6 @@ static struct spec_upsampler srgb;
 static double nm[BANDS], edge_nm[BANDS + 1];
 static float colour[3][WIDTH], plane[BANDS][WIDTH];
 static float *band[BANDS];
-
-static void
-near(double got, double wanted, double tolerance, const char *what)
-{
-	if (!(fabs(got - wanted) <= tolerance))
-		fail_msg("%s: got %.17g, wanted %.17g +- %g", what, got, wanted, tolerance);
-}
 
 /* Uniform in [0, 1). */
 static double

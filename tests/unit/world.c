@@ -1,17 +1,12 @@
 /* Where rays meet shapes, and how they get away from them. */
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdlib.h>
-#include <string.h>
-
-#include <cmocka.h>
 
 #include "render/world.h"
 #include "scene/scene.h"
 #include "scene/transform.h"
+
+#include "check.h"
+#include "shapes.h"
 
 #define PI 3.14159265358979323846
 
@@ -20,13 +15,6 @@ struct fixture {
 	struct spec_world *world;
 	uint64_t random;
 };
-
-static void
-check(enum spec_status status, const struct spec_error *error)
-{
-	if (status != SPEC_OK)
-		fail_msg("%s", error->message);
-}
 
 static int
 set_up(void **state)
@@ -99,18 +87,7 @@ distance_of(struct spec_vector a, struct spec_vector b)
 	return spec_vector_length(spec_vector_subtract(a, b));
 }
 
-static struct spec_ray
-ray_to(struct spec_vector from, struct spec_vector to)
-{
-	return (struct spec_ray){from, spec_vector_unit(spec_vector_subtract(to, from))};
-}
-
 /* --- shapes --- */
-
-/* Scaled, then turned, then moved. */
-struct place {
-	double scale[3], turn_deg, axis[3], move[3];
-};
 
 static const struct place places[] = {
 	{{1, 1, 1}, 0, {0, 0, 1}, {0, 0, 0}},
@@ -125,18 +102,6 @@ static const struct place places[] = {
 };
 #define PLACES (sizeof places / sizeof *places)
 
-static struct spec_transform
-transform_of(const struct place *place)
-{
-	struct spec_transform t = spec_transform_identity();
-	struct spec_error error;
-
-	check(spec_transform_translate(&t, place->move, &error), &error);
-	check(spec_transform_rotate(&t, place->turn_deg, place->axis, &error), &error);
-	check(spec_transform_scale(&t, place->scale, &error), &error);
-	return t;
-}
-
 static struct spec_scene_shape *
 add_shape(struct fixture *f, enum spec_scene_shape_kind kind, const struct place *place)
 {
@@ -147,15 +112,6 @@ add_shape(struct fixture *f, enum spec_scene_shape_kind kind, const struct place
 	shape->radius = 1;
 	shape->light = SPEC_SCENE_NONE;
 	return shape;
-}
-
-static void *
-copy_of(const void *list, size_t size)
-{
-	void *copy = malloc(size);
-
-	assert_non_null(copy);
-	return memcpy(copy, list, size);
 }
 
 /* An octahedron about 0, its outside outside; normals: as if of a sphere. */
