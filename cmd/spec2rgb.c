@@ -54,7 +54,8 @@ static const struct cli_option options[] = {
 		"weights of ASTM E308 for reflectance (default: cie)"},
 	{0, "white", "1|100",
 		"Y of the perfect reflector, and of light of 1 per nm (default: 1)"},
-	{0, "absolute", NULL, "Y in cd/m^2, of light that is a radiance"},
+	{0, "absolute", NULL,
+		"Y in cd/m^2, of radiance, or of reflectance under light\nwhose power is known"},
 	{'v', "verbose", NULL,
 		"tell how it was integrated, on standard error and in OpenEXR's "
 		"spec:integration"},
