@@ -93,7 +93,8 @@ spec_spelling_part(const char *text, char spelt[SPEC_SPELLING_LONGEST], double *
 	if (behind > 0) {
 		enum spec_status status = spec_number_parse(number,
 			SPEC_PLACE_LOWEST_M / unit_m, SPEC_PLACE_HIGHEST_M / unit_m,
-			"the altitude", altitude_m, error);
+			unit_m > 1 ? "the altitude in km" : "the altitude in m", altitude_m,
+			error);
 
 		if (status != SPEC_OK)
 			return status;

@@ -103,8 +103,9 @@ nonsense_is_refused(void **state)
 		{"40 nan", "a longitude is from -180 to 180 degrees, not nan"},
 		{"nan 40", "a latitude is from -90 to 90 degrees, not nan"},
 		{"inf 40", "is no place"},
-		{"40 50 200km", "the altitude"},
-		{"40 50 xm", "the altitude"},
+		{"40 50 200km", "the altitude in km is outside -12..100: '200'"},
+		{"40 50 2e5m", "the altitude in m is outside -12000..100000: '2e5'"},
+		{"40 50 xm", "the altitude in m is not a number"},
 		{"1,2,3,4,5,6,7,8,9,0,1,2,3,4,5,6,7,8", "is no place"},
 	};
 	char longest[400];
