@@ -24,6 +24,17 @@ using GeographicLib::Geodesic;
 using GeographicLib::LocalCartesian;
 using GeographicLib::Math;
 
+/* No std::string here: it might throw again. */
+enum spec_status
+fail(struct spec_error *error, enum spec_status status, const char *cause)
+{
+	if (error) {
+		error->status = status;
+		snprintf(error->message, sizeof error->message, "%s", cause);
+	}
+	return status;
+}
+
 /* Runs f; whatever it throws comes back as a status. */
 template <typename F>
 enum spec_status
@@ -33,17 +44,12 @@ guard(struct spec_error *error, F f)
 		f();
 		return SPEC_OK;
 	} catch (const std::bad_alloc &) {
-		/* No std::string here: it might throw again. */
-		error->status = SPEC_ENOMEM;
-		snprintf(error->message, sizeof error->message, "out of memory");
+		return fail(error, SPEC_ENOMEM, "out of memory");
 	} catch (const std::exception &exception) {
-		error->status = SPEC_EUSAGE;
-		snprintf(error->message, sizeof error->message, "%s", exception.what());
+		return fail(error, SPEC_EUSAGE, exception.what());
 	} catch (...) {
-		error->status = SPEC_EUSAGE;
-		snprintf(error->message, sizeof error->message, "unknown exception");
+		return fail(error, SPEC_EUSAGE, "unknown exception");
 	}
-	return error->status;
 }
 
 double

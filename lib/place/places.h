@@ -17,9 +17,9 @@
 #define SPEC_PLACES_SYMBOL "spec_places"
 
 /*
- * Each function fills *error (never null) where it fails: the cause alone, perhaps with line
- * breaks; SPEC_EUSAGE where GeographicLib refuses what it was given. Altitudes are left as
- * they are by parse and onwards.
+ * Each function fills *error, which may be null, where it fails: the cause alone, perhaps
+ * with line breaks; SPEC_EUSAGE where GeographicLib refuses what it was given. Altitudes are
+ * left as they are by parse and onwards.
  */
 struct spec_places {
 	int version;
