@@ -55,7 +55,7 @@ static const struct cli_option options[] = {
 	{0, "white", "1|100",
 		"Y of the perfect reflector, and of light of 1 per nm (default: 1)"},
 	{0, "absolute", NULL,
-		"Y in cd/m^2, of radiance, or of reflectance under light\nwhose power is known"},
+		"Y in cd/m^2, of radiance, or of reflectance under light whose power is known"},
 	{'v', "verbose", NULL,
 		"tell how it was integrated, on standard error and in OpenEXR's "
 		"spec:integration"},
