@@ -62,6 +62,10 @@ check(const struct reprojection *it, const char *name, const struct spec_setting
 	if (image->role == SPEC_ROLE_EMISSIVE && image->stokes > 1)
 		return spec_error_set(error, SPEC_EUNSUPPORTED,
 			"%s: is polarised, and the frames of S1 and S2 would turn", name);
+	if ((double)it->to.width * (double)it->to.height > (double)settings->limits.pixels)
+		return spec_error_set(error, SPEC_ERANGE,
+			"%s: would become %zu x %zu pixels, more than the limit of %lld (--limit pixels=N)",
+			name, it->to.width, it->to.height, settings->limits.pixels);
 	if (bytes > (double)settings->limits.memory)
 		return spec_error_set(error, SPEC_ERANGE,
 			"%s: %zu x %zu pixels of %zu channels take more than the limit of %lld bytes (--limit memory=BYTES)",

@@ -16,7 +16,7 @@
  * cross is 0. Channels of whole numbers have those of the pixel nearest to the middle. All
  * samples are in memory. argc, argv: for the history, where the settings want one.
  * Errors (the message names the file): another shape, polarised light, whose frames would turn
- * (SPEC_EUNSUPPORTED); more samples than the memory limit (SPEC_ERANGE); those of reading and
+ * (SPEC_EUNSUPPORTED); more pixels or samples than the limits (SPEC_ERANGE); those of reading and
  * writing.
  */
 enum spec_status spec_reproject_run(struct spec_reader *reader,

@@ -113,6 +113,8 @@ shows() {
   fails_cleanly specconvert --projection cross D65 -o x.exr
   fails_cleanly specconvert --projection cross --limit memory=8k ll.exr -o x.exr
   [[ $stderr = *'--limit memory'* ]] || complain "$stderr"
+  fails_cleanly specconvert --projection cross:65535 ll.exr -o x.exr
+  [[ $stderr = *'would become 87380 x 65535 pixels'*'--limit pixels'* ]] || complain "$stderr"
   specconvert --compression none ll.exr -o flat.exr
   head -c 5000 flat.exr >short.exr
   fails_cleanly specconvert --projection cross short.exr -o x.exr
