@@ -12,7 +12,7 @@
 #include "colour/models.h"
 #include "colour/smits.h"
 #include "colour/space.h"
-#include "colour/sun.h"
+#include "colour/gaussian.h"
 #include "colour/upsample.h"
 #include "image/fromrgb.h"
 #include "spectrum/mean.h"
@@ -216,18 +216,18 @@ fill_sigmoid(const double rgb[3], const struct spec_upsampler *upsampler, int bo
 static enum spec_status
 fill_sun(const double rgb[3], int lit, struct spec_curve *curve, struct spec_error *error)
 {
-	struct spec_sun *sun = spec_memory_new(1, sizeof *sun, "models", error);
+	struct spec_gaussian_fit *sun = spec_memory_new(1, sizeof *sun, "models", error);
 	struct spec_gaussians gaussians;
 	enum spec_status status =
-		sun ? spec_sun_load(spec_space_find("srgb", NULL), lit, sun, error)
+		sun ? spec_gaussian_load(spec_space_find("srgb", NULL), lit, sun, error)
 		    : SPEC_ENOMEM;
 
 	if (status == SPEC_OK)
-		status = spec_sun_solve(sun, rgb, &gaussians, error);
+		status = spec_gaussian_solve(sun, rgb, &gaussians, error);
 	if (status == SPEC_OK)
 		spec_gaussians_sample(
 			&gaussians, curve->wavelength_nm, curve->count, curve->value);
-	spec_sun_free(sun);
+	spec_gaussian_free(sun);
 	free(sun);
 	return status;
 }

@@ -8,7 +8,7 @@
 #include "base/memory.h"
 #include "colour/basis.h"
 #include "colour/smits.h"
-#include "colour/sun.h"
+#include "colour/gaussian.h"
 #include "colour/upsample.h"
 
 /* Two nodes stand for no more than this of a band. */
@@ -299,7 +299,7 @@ plan_sun(struct spec_upsampling *upsampling, const struct spec_upsampling_setup 
 	struct spec_error *error)
 {
 	const double *edge = setup->edges_nm;
-	double width_nm = SPEC_SUN_WIDEST_NM;
+	double width_nm = SPEC_GAUSSIAN_WIDEST_NM;
 	enum spec_status status;
 
 	if (setup->use == SPEC_UPSAMPLING_ALBEDO)
@@ -312,20 +312,21 @@ plan_sun(struct spec_upsampling *upsampling, const struct spec_upsampling_setup 
 		setup->count, WIDTHS * 3 * sizeof *upsampling->gaussian, "bands", error);
 	if (!upsampling->sun || !upsampling->matrix || !upsampling->gaussian)
 		return SPEC_ENOMEM;
-	status = spec_sun_load(spec_space_find("srgb", NULL),
+	status = spec_gaussian_load(spec_space_find("srgb", NULL),
 		setup->use == SPEC_UPSAMPLING_UNBOUNDED, upsampling->sun, error);
 	for (size_t j = 0; j < WIDTHS && status == SPEC_OK; j++) {
-		status = spec_sun_matrix(
+		status = spec_gaussian_matrix(
 			upsampling->sun, width_nm, upsampling->matrix + 9 * j, error);
 		for (size_t i = 0; i < setup->count; i++)
 			for (size_t k = 0; k < 3; k++)
 				upsampling->gaussian[(i * WIDTHS + j) * 3 + k] =
-					(float)(edge ? spec_sun_gaussian_mean((int)k,
+					(float)(edge ? spec_gaussian_component_mean((int)k,
 							       width_nm, edge[i],
 							       edge[i + 1])
-						     : spec_sun_gaussian((int)k, width_nm,
+						     : spec_gaussian_component((int)k,
+							       width_nm,
 							       setup->wavelength_nm[i]));
-		width_nm *= SPEC_SUN_STEP;
+		width_nm *= SPEC_GAUSSIAN_STEP;
 	}
 	return status;
 }
@@ -393,7 +394,7 @@ spec_upsampling_free(struct spec_upsampling *upsampling)
 	spec_sigmoids_free(&upsampling->sigmoids);
 	free(upsampling->first);
 	free(upsampling->node);
-	spec_sun_free(upsampling->sun);
+	spec_gaussian_free(upsampling->sun);
 	free(upsampling->sun);
 	free(upsampling->matrix);
 	free(upsampling->gaussian);

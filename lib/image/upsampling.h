@@ -1,5 +1,5 @@
 /*
- * Pictures of three colours become spectral: the models of colour/smits.h, colour/sun.h,
+ * Pictures of three colours become spectral: the models of colour/smits.h, colour/gaussian.h,
  * colour/upsample.h and colour/basis.h, for rows of pixels.
  */
 #ifndef SPEC_IMAGE_UPSAMPLING_H
@@ -52,7 +52,7 @@ struct spec_upsampling {
 	size_t *first; /* [bands + 1]: where a band's nodes begin: one, or pairs */
 	struct spec_upsampling_node *node;
 
-	struct spec_sun *sun;
+	struct spec_gaussian_fit *sun;
 	size_t widths;
 	double *matrix;  /* [widths][9]: from RGB to the weights */
 	float *gaussian; /* [bands][widths][3] */

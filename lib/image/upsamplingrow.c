@@ -5,7 +5,7 @@
 
 #include "base/vector.h"
 #include "colour/smits.h"
-#include "colour/sun.h"
+#include "colour/gaussian.h"
 #include "image/upsampling.h"
 
 #define RUN 256 /* pixels of a block */
@@ -246,15 +246,15 @@ is_met_between(const double near[3], const double far[3], double part)
 
 	for (int k = 0; k < 3; k++)
 		weight[k] = near[k] + part * (far[k] - near[k]);
-	return spec_sun_is_met(weight);
+	return spec_gaussian_is_met(weight);
 }
 
-/* As spec_sun_solve, whose steps are those of the tabulated widths. */
+/* As spec_gaussian_solve, whose steps are those of the tabulated widths. */
 static struct mixture
 mix(const struct spec_upsampling *upsampling, const double rgb[3], float bad)
 {
-	double width_nm = spec_sun_width(upsampling->sun, rgb), near[3], far[3];
-	double place = log(width_nm / SPEC_SUN_WIDEST_NM) / log(SPEC_SUN_STEP);
+	double width_nm = spec_gaussian_width(upsampling->sun, rgb), near[3], far[3];
+	double place = log(width_nm / SPEC_GAUSSIAN_WIDEST_NM) / log(SPEC_GAUSSIAN_STEP);
 	size_t width = (size_t)fmax(place, 0), last = upsampling->widths - 2;
 	double part = fmin(place - (double)width, 1);
 	struct mixture mixture;

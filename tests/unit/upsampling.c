@@ -3,7 +3,7 @@
 
 #include "colour/basis.h"
 #include "colour/smits.h"
-#include "colour/sun.h"
+#include "colour/gaussian.h"
 #include "colour/upsample.h"
 #include "image/upsampling.h"
 
@@ -68,7 +68,8 @@ one_colour(const struct spec_upsampling *upsampling, const double rgb[3], int me
 
 	if (upsampling->model == SPEC_UPSAMPLING_SUN) {
 		assert_int_equal(
-			spec_sun_solve(upsampling->sun, rgb, &gaussians, NULL), SPEC_OK);
+			spec_gaussian_solve(upsampling->sun, rgb, &gaussians, NULL),
+			SPEC_OK);
 		if (means)
 			spec_gaussians_mean(&gaussians, edge_nm, BANDS, value);
 		else

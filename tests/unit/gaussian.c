@@ -1,20 +1,21 @@
-/* lib/colour/sun: three Gaussians for an RGB colour. */
+/* lib/colour/gaussian: three Gaussians for an RGB colour. */
 #include "colour/difference.h"
-#include "colour/sun.h"
+#include "colour/gaussian.h"
 
 #include "check.h"
 
-static struct spec_sun light, factor;
+static struct spec_gaussian_fit light, factor;
 
 /* DeltaE2000 between a colour and its spectrum. */
 static double
-miss(const struct spec_sun *sun, const double rgb[3], struct spec_gaussians *gaussians)
+miss(const struct spec_gaussian_fit *sun, const double rgb[3],
+	struct spec_gaussians *gaussians)
 {
 	const double one[3] = {1, 1, 1};
 	double value[471], xyz[3] = {0}, wanted[3], white[3], lab1[3], lab2[3];
 
 	assert_int_equal(sun->count, COUNT(value));
-	assert_int_equal(spec_sun_solve(sun, rgb, gaussians, NULL), SPEC_OK);
+	assert_int_equal(spec_gaussian_solve(sun, rgb, gaussians, NULL), SPEC_OK);
 	spec_gaussians_sample(gaussians, sun->wavelength_nm, sun->count, value);
 	for (size_t c = 0; c < 3; c++) {
 		for (size_t i = 0; i < sun->count; i++)
@@ -34,7 +35,7 @@ miss(const struct spec_sun *sun, const double rgb[3], struct spec_gaussians *gau
 static void
 sun_round_trip(void **state)
 {
-	const struct spec_sun *const both[2] = {&light, &factor};
+	const struct spec_gaussian_fit *const both[2] = {&light, &factor};
 
 	(void)state;
 	for (int k = 0; k < 2; k++) {
@@ -53,8 +54,9 @@ sun_round_trip(void **state)
 			mean += off / 4096;
 			missed += off > 1e-6;
 			if (off > 1e-6)
-				assert_true(rgb[2] > rgb[1] && rgb[2] > rgb[0] &&
-					    gaussians.width_nm <= SPEC_SUN_NARROWEST_NM);
+				assert_true(
+					rgb[2] > rgb[1] && rgb[2] > rgb[0] &&
+					gaussians.width_nm <= SPEC_GAUSSIAN_NARROWEST_NM);
 		}
 		if (!(most <= 4 && mean <= .06 && missed <= 130))
 			fail_msg(
@@ -70,16 +72,16 @@ sun_width_follows_saturation(void **state)
 	double last = 151;
 
 	(void)state;
-	near(spec_sun_width(&light, grey), 150, 1e-6, "grey");
-	near(spec_sun_width(&light, black), 150, 0, "black");
+	near(spec_gaussian_width(&light, grey), 150, 1e-6, "grey");
+	near(spec_gaussian_width(&light, black), 150, 0, "black");
 	for (int i = 0; i <= 10; i++) {
 		double rgb[3] = {1, 1 - .1 * i, 1 - .1 * i}, tenth[3];
-		double width_nm = spec_sun_width(&light, rgb);
+		double width_nm = spec_gaussian_width(&light, rgb);
 
 		for (int c = 0; c < 3; c++)
 			tenth[c] = .1 * rgb[c];
 		assert_true(width_nm < last && width_nm > 10);
-		near(spec_sun_width(&light, tenth), width_nm, 1e-9, "at a tenth");
+		near(spec_gaussian_width(&light, tenth), width_nm, 1e-9, "at a tenth");
 		last = width_nm;
 	}
 }
@@ -95,7 +97,7 @@ sun_purity_of_red(void **state)
 	double purity = (.64 - .3127) / (.6697 - .3127);
 
 	(void)state;
-	near(spec_sun_width(&light, red), 150 - 140 * purity, .02, "width");
+	near(spec_gaussian_width(&light, red), 150 - 140 * purity, .02, "width");
 }
 
 /* Half height at half the width; the integral w sqrt(pi / ln 2) / 2; means add up. */
@@ -108,16 +110,19 @@ sun_gaussians(void **state)
 	for (int i = 0; i < 3; i++) {
 		double c = centre_nm[i], w = 40, sum = 0;
 
-		near(spec_sun_gaussian(i, w, c), 1, 0, "peak");
-		near(spec_sun_gaussian(i, w, c + 20), .5, 1e-15, "half height");
-		near(spec_sun_gaussian(i, w, c - 20), .5, 1e-15, "half height");
-		near(400 * spec_sun_gaussian_mean(i, w, c - 200, c + 200),
+		near(spec_gaussian_component(i, w, c), 1, 0, "peak");
+		near(spec_gaussian_component(i, w, c + 20), .5, 1e-15, "half height");
+		near(spec_gaussian_component(i, w, c - 20), .5, 1e-15, "half height");
+		near(400 * spec_gaussian_component_mean(i, w, c - 200, c + 200),
 			w / 2 * sqrt(3.14159265358979 / log(2)), 1e-9, "integral");
 		for (int k = 0; k < 1000; k++)
-			sum += spec_sun_gaussian(i, w, c + 30 + .01 * (k + .5)) / 1000;
-		near(spec_sun_gaussian_mean(i, w, c + 30, c + 40), sum, 1e-7, "mean above");
-		near(spec_sun_gaussian_mean(i, w, c - 40, c - 30), sum, 1e-7, "mean below");
-		near(spec_sun_gaussian_mean(i, w, c - 1e-3, c + 1e-3), 1, 1e-8,
+			sum += spec_gaussian_component(i, w, c + 30 + .01 * (k + .5)) /
+			       1000;
+		near(spec_gaussian_component_mean(i, w, c + 30, c + 40), sum, 1e-7,
+			"mean above");
+		near(spec_gaussian_component_mean(i, w, c - 40, c - 30), sum, 1e-7,
+			"mean below");
+		near(spec_gaussian_component_mean(i, w, c - 1e-3, c + 1e-3), 1, 1e-8,
 			"mean at peak");
 	}
 }
@@ -130,7 +135,7 @@ sun_means_are_of_its_samples(void **state)
 	double edge_nm[41], mean[40], nm, value;
 
 	(void)state;
-	assert_int_equal(spec_sun_solve(&light, rgb, &gaussians, NULL), SPEC_OK);
+	assert_int_equal(spec_gaussian_solve(&light, rgb, &gaussians, NULL), SPEC_OK);
 	for (size_t i = 0; i < COUNT(edge_nm); i++)
 		edge_nm[i] = 380 + 10 * (double)i;
 	spec_gaussians_mean(&gaussians, edge_nm, 40, mean);
@@ -155,8 +160,8 @@ sun_refuses_bad_colours(void **state)
 
 	(void)state;
 	for (size_t i = 0; i < COUNT(bad); i++)
-		assert_int_equal(
-			spec_sun_solve(&light, bad[i], &gaussians, &error), SPEC_ERANGE);
+		assert_int_equal(spec_gaussian_solve(&light, bad[i], &gaussians, &error),
+			SPEC_ERANGE);
 }
 
 static int
@@ -165,16 +170,16 @@ open_all(void **state)
 	const struct spec_space *srgb = spec_space_find("srgb", NULL);
 
 	(void)state;
-	return spec_sun_load(srgb, 0, &light, NULL) != SPEC_OK ||
-	       spec_sun_load(srgb, 1, &factor, NULL) != SPEC_OK;
+	return spec_gaussian_load(srgb, 0, &light, NULL) != SPEC_OK ||
+	       spec_gaussian_load(srgb, 1, &factor, NULL) != SPEC_OK;
 }
 
 static int
 close_all(void **state)
 {
 	(void)state;
-	spec_sun_free(&light);
-	spec_sun_free(&factor);
+	spec_gaussian_free(&light);
+	spec_gaussian_free(&factor);
 	return 0;
 }
 

@@ -1,4 +1,4 @@
-#include "colour/sun.h"
+#include "colour/gaussian.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -9,7 +9,6 @@
 #include "colour/upsample.h"
 #include "spectrum/lookup.h"
 
-#define PI 3.14159265358979323846
 #define LN_2 0.693147180559945309417
 
 /* The spectrum locus, as far as its chromaticities are told apart. */
@@ -80,14 +79,14 @@ nearness_along(const struct spec_curve *observer, const double white_xy[2], doub
 }
 
 static enum spec_status
-find_locus(
-	const struct spec_curve *observer, struct spec_sun *sun, struct spec_error *error)
+find_locus(const struct spec_curve *observer, struct spec_gaussian_fit *fit,
+	struct spec_error *error)
 {
-	for (size_t k = 0; k <= SPEC_SUN_DIRECTIONS; k++) {
-		double angle = PI * (2 * (double)k / SPEC_SUN_DIRECTIONS - 1);
+	for (size_t k = 0; k <= SPEC_GAUSSIAN_DIRECTIONS; k++) {
+		double angle = M_PI * (2 * (double)k / SPEC_GAUSSIAN_DIRECTIONS - 1);
 
-		sun->nearness[k] = nearness_along(observer, sun->white_xy, angle);
-		if (!isfinite(sun->nearness[k]))
+		fit->nearness[k] = nearness_along(observer, fit->white_xy, angle);
+		if (!isfinite(fit->nearness[k]))
 			return spec_error_set(error, SPEC_EFORMAT,
 				"the observer '%s' has no locus around white",
 				observer->title);
@@ -97,101 +96,103 @@ find_locus(
 
 /* The weights of light itself, at the observer's samples. */
 static enum spec_status
-weigh_light(
-	const struct spec_curve *observer, struct spec_sun *sun, struct spec_error *error)
+weigh_light(const struct spec_curve *observer, struct spec_gaussian_fit *fit,
+	struct spec_error *error)
 {
 	struct spec_bands bands = {
 		.count = observer->count, .wavelength_nm = observer->wavelength_nm};
-	size_t bytes = observer->count * sizeof *sun->wavelength_nm;
+	size_t bytes = observer->count * sizeof *fit->wavelength_nm;
 	double outside;
 
-	sun->count = observer->count;
-	sun->wavelength_nm = spec_memory_new(1, bytes, "wavelengths", error);
-	sun->weight = spec_memory_new(3, bytes, "weights", error);
-	if (!sun->wavelength_nm || !sun->weight)
+	fit->count = observer->count;
+	fit->wavelength_nm = spec_memory_new(1, bytes, "wavelengths", error);
+	fit->weight = spec_memory_new(3, bytes, "weights", error);
+	if (!fit->wavelength_nm || !fit->weight)
 		return SPEC_ENOMEM;
-	memcpy(sun->wavelength_nm, observer->wavelength_nm, bytes);
-	return spec_observer_weights(observer, NULL, &bands, sun->weight, &outside, error);
+	memcpy(fit->wavelength_nm, observer->wavelength_nm, bytes);
+	return spec_observer_weights(observer, NULL, &bands, fit->weight, &outside, error);
 }
 
 /* Those under the space's white light, which an upsampler has. */
 static enum spec_status
-weigh_factor(const struct spec_space *space, struct spec_sun *sun, struct spec_error *error)
+weigh_factor(const struct spec_space *space, struct spec_gaussian_fit *fit,
+	struct spec_error *error)
 {
 	struct spec_upsampler upsampler;
 	enum spec_status status = spec_upsampler_load(space, &upsampler, error);
 
 	if (status != SPEC_OK)
 		return status;
-	sun->count = upsampler.count;
-	sun->wavelength_nm = upsampler.wavelength_nm;
-	sun->weight = upsampler.weight;
-	memcpy(sun->to_xyz, upsampler.to_xyz, sizeof sun->to_xyz);
+	fit->count = upsampler.count;
+	fit->wavelength_nm = upsampler.wavelength_nm;
+	fit->weight = upsampler.weight;
+	memcpy(fit->to_xyz, upsampler.to_xyz, sizeof fit->to_xyz);
 	upsampler.wavelength_nm = upsampler.weight = NULL;
 	spec_upsampler_free(&upsampler);
 	return SPEC_OK;
 }
 
 enum spec_status
-spec_sun_load(const struct spec_space *space, int lit, struct spec_sun *sun,
+spec_gaussian_load(const struct spec_space *space, int lit, struct spec_gaussian_fit *fit,
 	struct spec_error *error)
 {
 	struct spec_curve observer = {0};
 	enum spec_status status;
 
-	*sun = (struct spec_sun){.white_xy = {space->white_xy[0], space->white_xy[1]}};
+	*fit = (struct spec_gaussian_fit){
+		.white_xy = {space->white_xy[0], space->white_xy[1]}};
 	status = spec_lookup_curve(spec_observer_spectrum("1931"), &observer, error);
 	if (status == SPEC_OK && lit) {
-		status = weigh_factor(space, sun, error);
+		status = weigh_factor(space, fit, error);
 	} else if (status == SPEC_OK) {
-		status = spec_space_to_xyz(space, sun->to_xyz, error);
+		status = spec_space_to_xyz(space, fit->to_xyz, error);
 		if (status == SPEC_OK)
-			status = weigh_light(&observer, sun, error);
+			status = weigh_light(&observer, fit, error);
 	}
 	if (status == SPEC_OK)
-		status = find_locus(&observer, sun, error);
+		status = find_locus(&observer, fit, error);
 	spec_curve_free(&observer);
 	if (status != SPEC_OK)
-		spec_sun_free(sun);
+		spec_gaussian_free(fit);
 	return status;
 }
 
 void
-spec_sun_free(struct spec_sun *sun)
+spec_gaussian_free(struct spec_gaussian_fit *fit)
 {
-	if (!sun)
+	if (!fit)
 		return;
-	free(sun->wavelength_nm);
-	free(sun->weight);
-	*sun = (struct spec_sun){0};
+	free(fit->wavelength_nm);
+	free(fit->weight);
+	*fit = (struct spec_gaussian_fit){0};
 }
 
 double
-spec_sun_width(const struct spec_sun *sun, const double rgb[3])
+spec_gaussian_width(const struct spec_gaussian_fit *fit, const double rgb[3])
 {
 	double xyz[3], sum, x, y, distance, at, purity;
 	size_t k;
 
-	spec_matrix_apply(sun->to_xyz, rgb, xyz);
+	spec_matrix_apply(fit->to_xyz, rgb, xyz);
 	sum = xyz[0] + xyz[1] + xyz[2];
 	if (!(sum > 0))
-		return SPEC_SUN_WIDEST_NM;
-	x = xyz[0] / sum - sun->white_xy[0];
-	y = xyz[1] / sum - sun->white_xy[1];
+		return SPEC_GAUSSIAN_WIDEST_NM;
+	x = xyz[0] / sum - fit->white_xy[0];
+	y = xyz[1] / sum - fit->white_xy[1];
 	distance = hypot(x, y);
 	if (distance < SAME_XY)
-		return SPEC_SUN_WIDEST_NM;
-	at = (atan2(y, x) / PI + 1) * (.5 * SPEC_SUN_DIRECTIONS);
-	k = at < SPEC_SUN_DIRECTIONS - 1 ? (size_t)at : SPEC_SUN_DIRECTIONS - 1;
+		return SPEC_GAUSSIAN_WIDEST_NM;
+	at = (atan2(y, x) / M_PI + 1) * (.5 * SPEC_GAUSSIAN_DIRECTIONS);
+	k = at < SPEC_GAUSSIAN_DIRECTIONS - 1 ? (size_t)at : SPEC_GAUSSIAN_DIRECTIONS - 1;
 	purity = distance *
-		 (sun->nearness[k] +
-			 (at - (double)k) * (sun->nearness[k + 1] - sun->nearness[k]));
-	return SPEC_SUN_WIDEST_NM +
-	       fmin(purity, 1) * (SPEC_SUN_NARROWEST_NM - SPEC_SUN_WIDEST_NM);
+		 (fit->nearness[k] +
+			 (at - (double)k) * (fit->nearness[k + 1] - fit->nearness[k]));
+	return SPEC_GAUSSIAN_WIDEST_NM +
+	       fmin(purity, 1) * (SPEC_GAUSSIAN_NARROWEST_NM - SPEC_GAUSSIAN_WIDEST_NM);
 }
 
 double
-spec_sun_gaussian(int i, double width_nm, double wavelength_nm)
+spec_gaussian_component(int i, double width_nm, double wavelength_nm)
 {
 	double off = 2 * (wavelength_nm - centre_nm[i]) / width_nm;
 
@@ -199,7 +200,7 @@ spec_sun_gaussian(int i, double width_nm, double wavelength_nm)
 }
 
 double
-spec_sun_gaussian_mean(int i, double width_nm, double from_nm, double to_nm)
+spec_gaussian_component_mean(int i, double width_nm, double from_nm, double to_nm)
 {
 	double steep = 2 * sqrt(LN_2) / width_nm;
 	double from = steep * (from_nm - centre_nm[i]), to = steep * (to_nm - centre_nm[i]);
@@ -208,34 +209,34 @@ spec_sun_gaussian_mean(int i, double width_nm, double from_nm, double to_nm)
 		      : to < 0 ? erfc(-to) - erfc(-from)
 			       : erf(to) - erf(from);
 
-	return .5 * sqrt(PI) * area / (to - from);
+	return .5 * sqrt(M_PI) * area / (to - from);
 }
 
 enum spec_status
-spec_sun_matrix(
-	const struct spec_sun *sun, double width_nm, double m[9], struct spec_error *error)
+spec_gaussian_matrix(const struct spec_gaussian_fit *fit, double width_nm, double m[9],
+	struct spec_error *error)
 {
 	double xyz[9] = {0};
 	enum spec_status status;
 
-	for (size_t k = 0; k < sun->count; k++) {
+	for (size_t k = 0; k < fit->count; k++) {
 		for (int i = 0; i < 3; i++) {
 			double value =
-				spec_sun_gaussian(i, width_nm, sun->wavelength_nm[k]);
+				spec_gaussian_component(i, width_nm, fit->wavelength_nm[k]);
 
 			for (size_t c = 0; c < 3; c++)
 				xyz[3 * c + (size_t)i] +=
-					sun->weight[c * sun->count + k] * value;
+					fit->weight[c * fit->count + k] * value;
 		}
 	}
 	status = spec_matrix_invert(xyz, m, error);
 	if (status == SPEC_OK)
-		spec_matrix_multiply(m, sun->to_xyz, m);
+		spec_matrix_multiply(m, fit->to_xyz, m);
 	return status;
 }
 
 int
-spec_sun_is_met(const double weight[3])
+spec_gaussian_is_met(const double weight[3])
 {
 	double most = fmax(weight[0], fmax(weight[1], weight[2]));
 	double least = fmin(weight[0], fmin(weight[1], weight[2]));
@@ -244,29 +245,29 @@ spec_sun_is_met(const double weight[3])
 }
 
 enum spec_status
-spec_sun_solve(const struct spec_sun *sun, const double rgb[3],
+spec_gaussian_solve(const struct spec_gaussian_fit *fit, const double rgb[3],
 	struct spec_gaussians *gaussians, struct spec_error *error)
 {
 	enum spec_status status;
 	double m[9];
 
-	*gaussians = (struct spec_gaussians){.width_nm = SPEC_SUN_WIDEST_NM};
+	*gaussians = (struct spec_gaussians){.width_nm = SPEC_GAUSSIAN_WIDEST_NM};
 	for (int i = 0; i < 3; i++)
 		if (!(rgb[i] >= 0 && isfinite(rgb[i])))
 			return spec_error_set(error, SPEC_ERANGE,
 				"a component of a colour is %g, not finite and >= 0",
 				rgb[i]);
-	gaussians->width_nm = spec_sun_width(sun, rgb);
+	gaussians->width_nm = spec_gaussian_width(fit, rgb);
 	for (;;) {
-		status = spec_sun_matrix(sun, gaussians->width_nm, m, error);
+		status = spec_gaussian_matrix(fit, gaussians->width_nm, m, error);
 		if (status != SPEC_OK)
 			return status;
 		spec_matrix_apply(m, rgb, gaussians->weight);
-		if (gaussians->width_nm <= SPEC_SUN_NARROWEST_NM ||
-			spec_sun_is_met(gaussians->weight))
+		if (gaussians->width_nm <= SPEC_GAUSSIAN_NARROWEST_NM ||
+			spec_gaussian_is_met(gaussians->weight))
 			break;
-		gaussians->width_nm =
-			fmax(gaussians->width_nm * SPEC_SUN_STEP, SPEC_SUN_NARROWEST_NM);
+		gaussians->width_nm = fmax(gaussians->width_nm * SPEC_GAUSSIAN_STEP,
+			SPEC_GAUSSIAN_NARROWEST_NM);
 	}
 	for (int i = 0; i < 3; i++)
 		gaussians->weight[i] = fmax(gaussians->weight[i], 0);
@@ -280,9 +281,9 @@ spec_gaussians_sample(const struct spec_gaussians *gaussians, const double *wave
 	for (size_t k = 0; k < count; k++) {
 		value[k] = 0;
 		for (int i = 0; i < 3; i++)
-			value[k] +=
-				gaussians->weight[i] *
-				spec_sun_gaussian(i, gaussians->width_nm, wavelength_nm[k]);
+			value[k] += gaussians->weight[i] * spec_gaussian_component(i,
+								   gaussians->width_nm,
+								   wavelength_nm[k]);
 	}
 }
 
@@ -294,7 +295,7 @@ spec_gaussians_mean(const struct spec_gaussians *gaussians, const double *edges_
 		value[k] = 0;
 		for (int i = 0; i < 3; i++)
 			value[k] += gaussians->weight[i] *
-				    spec_sun_gaussian_mean(i, gaussians->width_nm,
+				    spec_gaussian_component_mean(i, gaussians->width_nm,
 					    edges_nm[k], edges_nm[k + 1]);
 	}
 }

@@ -12,28 +12,28 @@
  *         A weight that is negative even at 10 nm is 0; such are the deepest blues alone.
  * These are no reflectances: narrow ones rise far above 1.
  */
-#ifndef SPEC_COLOUR_SUN_H
-#define SPEC_COLOUR_SUN_H
+#ifndef SPEC_COLOUR_GAUSSIAN_H
+#define SPEC_COLOUR_GAUSSIAN_H
 
 #include <stddef.h>
 
 #include "base/error.h"
 #include "colour/space.h"
 
-#define SPEC_SUN_WIDEST_NM 150.0
-#define SPEC_SUN_NARROWEST_NM 10.0
-#define SPEC_SUN_STEP .99 /* from one width to the next narrower one */
-#define SPEC_SUN_DIRECTIONS 4096
+#define SPEC_GAUSSIAN_WIDEST_NM 150.0
+#define SPEC_GAUSSIAN_NARROWEST_NM 10.0
+#define SPEC_GAUSSIAN_STEP .99        /* from one width to the next narrower one */
+#define SPEC_GAUSSIAN_DIRECTIONS 4096 /* of the locus from white, linear between */
 
 /* What colours of one space are solved for; afterwards only read, by any threads. */
-struct spec_sun {
+struct spec_gaussian_fit {
 	size_t count;          /* the observer's samples */
 	double *wavelength_nm; /* [count] */
 	double *weight;        /* [3 * count]: XYZ of such a spectrum */
 	double to_xyz[9];      /* from linear RGB */
 	double white_xy[2];
 	/* One over the locus's distance from white, by direction, from -pi to pi. */
-	double nearness[SPEC_SUN_DIRECTIONS + 1];
+	double nearness[SPEC_GAUSSIAN_DIRECTIONS + 1];
 };
 
 struct spec_gaussians {
@@ -46,27 +46,27 @@ struct spec_gaussians {
  * the space's white light is multiplied by. Errors: those of spec_upsampler_load,
  * spec_lookup_curve and spec_observer_weights.
  */
-enum spec_status spec_sun_load(const struct spec_space *space, int lit,
-	struct spec_sun *sun, struct spec_error *error);
-void spec_sun_free(struct spec_sun *sun);
+enum spec_status spec_gaussian_load(const struct spec_space *space, int lit,
+	struct spec_gaussian_fit *fit, struct spec_error *error);
+void spec_gaussian_free(struct spec_gaussian_fit *fit);
 
 /* The width for a colour: rgb, linear, finite, >= 0. Black is white as to its hue. */
-double spec_sun_width(const struct spec_sun *sun, const double rgb[3]);
+double spec_gaussian_width(const struct spec_gaussian_fit *fit, const double rgb[3]);
 
 /* The matrix from linear RGB to the weights for a width. Error: SPEC_ERANGE, no inverse. */
-enum spec_status spec_sun_matrix(
-	const struct spec_sun *sun, double width_nm, double m[9], struct spec_error *error);
+enum spec_status spec_gaussian_matrix(const struct spec_gaussian_fit *fit, double width_nm,
+	double m[9], struct spec_error *error);
 
 /* Whether no weight is negative, but for rounding. */
-int spec_sun_is_met(const double weight[3]);
+int spec_gaussian_is_met(const double weight[3]);
 
 /* The spectrum of a colour: rgb, linear, finite, >= 0. Errors: SPEC_ERANGE. */
-enum spec_status spec_sun_solve(const struct spec_sun *sun, const double rgb[3],
-	struct spec_gaussians *gaussians, struct spec_error *error);
+enum spec_status spec_gaussian_solve(const struct spec_gaussian_fit *fit,
+	const double rgb[3], struct spec_gaussians *gaussians, struct spec_error *error);
 
 /* The i-th Gaussian, 0 to 2, of weight 1: at a wavelength, and its exact mean over a bin. */
-double spec_sun_gaussian(int i, double width_nm, double wavelength_nm);
-double spec_sun_gaussian_mean(int i, double width_nm, double from_nm, double to_nm);
+double spec_gaussian_component(int i, double width_nm, double wavelength_nm);
+double spec_gaussian_component_mean(int i, double width_nm, double from_nm, double to_nm);
 
 /* The spectrum at count wavelengths, and its means over bins between bins + 1 edges. */
 void spec_gaussians_sample(const struct spec_gaussians *gaussians,
