@@ -6,7 +6,6 @@
 #include "colour/transfer.h"
 
 #define STEPS 51
-#define PI 3.14159265358979323846
 
 /* Of OKLab's circle: within sRGB at every hue. */
 #define HUE_LIGHTNESS .75
@@ -140,7 +139,7 @@ spec_colourmap_cool_warm(double share, unsigned char rgb[3])
 	/* A grey has no hue: it takes the one from which the end is reached straight. */
 	double turn =
 		end->s * sqrt(WHITE_M * WHITE_M - end->m * end->m) / (end->m * sin(end->s));
-	double hue = end->h > -PI / 3 ? end->h + turn : end->h - turn;
+	double hue = end->h > -M_PI / 3 ? end->h + turn : end->h - turn;
 	struct polar here = {WHITE_M + part * (end->m - WHITE_M), part * end->s,
 		hue + part * (end->h - hue)};
 
@@ -150,7 +149,7 @@ spec_colourmap_cool_warm(double share, unsigned char rgb[3])
 void
 spec_colourmap_hue(double share, unsigned char rgb[3])
 {
-	double angle = 2 * PI * fmin(fmax(share, 0), 1) + HUE_FIRST_DEG * PI / 180;
+	double angle = 2 * M_PI * fmin(fmax(share, 0), 1) + HUE_FIRST_DEG * M_PI / 180;
 	double a = HUE_CHROMA * cos(angle), b = HUE_CHROMA * sin(angle);
 	double l = HUE_LIGHTNESS + .3963377774 * a + .2158037573 * b;
 	double m = HUE_LIGHTNESS - .1055613458 * a - .0638541728 * b;

@@ -1,5 +1,6 @@
 #include "compare/expression.h"
 
+#include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -15,7 +16,6 @@
 #define LAST_LETTER 'w' /* x and y are the pixel */
 #define LONGEST_QUOTED 40
 #define MOST_NAMES 64
-#define PI 3.14159265358979323846
 
 /* What was assigned: the bytes of its name in the text, and its node. */
 struct variable {
@@ -392,7 +392,7 @@ parse_name(struct parser *parser, size_t *index)
 		return parse_image(parser, word, image, index);
 	if (is_word(word, "pi")) {
 		node.kind = SPEC_NODE_NUMBER;
-		node.number = PI;
+		node.number = M_PI;
 		return add_node(parser, &node, index);
 	}
 	for (size_t i = 0; places[i].name; i++) {

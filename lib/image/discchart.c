@@ -2,8 +2,6 @@
 
 #include <math.h>
 
-#define PI 3.14159265358979323846
-
 void
 spec_disc_chart_variables(
 	struct spec_chart *chart, double eye_deg, double lamp_deg, double azimuth_deg)
@@ -29,9 +27,9 @@ spec_disc_chart_evaluate(
 		.half_cosine = half_cosine};
 
 	for (size_t i = 0; i < count; i++) {
-		double eye = at[SPEC_DISC_EYE][i] * PI / 180;
-		double lamp = at[SPEC_DISC_LAMP][i] * PI / 180;
-		double azimuth = at[SPEC_DISC_AZIMUTH][i] * PI / 180;
+		double eye = at[SPEC_DISC_EYE][i] * M_PI / 180;
+		double lamp = at[SPEC_DISC_LAMP][i] * M_PI / 180;
+		double azimuth = at[SPEC_DISC_AZIMUTH][i] * M_PI / 180;
 		double sines = sin(eye) + sin(lamp);
 
 		along[i] = sines * sin(azimuth);
@@ -41,6 +39,6 @@ spec_disc_chart_evaluate(
 	chart->model(chart->disc, &chart->bands, &pixels, value, SPEC_CHART_RUN);
 	for (size_t band = 0; band < chart->bands.count; band++) {
 		for (size_t i = 0; i < count; i++)
-			value[band * SPEC_CHART_RUN + i] *= PI;
+			value[band * SPEC_CHART_RUN + i] *= M_PI;
 	}
 }

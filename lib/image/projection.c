@@ -6,7 +6,6 @@
 #include "base/number.h"
 #include "base/triple.h"
 
-#define PI 3.14159265358979323846
 #define MOST_HEIGHT 65536
 
 /* Width to height, in faces where it has any. */
@@ -75,7 +74,7 @@ static double
 quarter(const struct spec_panorama *panorama)
 {
 	if (panorama->projection == SPEC_PROJECTION_OCTAHEDRAL)
-		return (double)panorama->height * sqrt(PI) / 4;
+		return (double)panorama->height * sqrt(M_PI) / 4;
 	if (panorama->projection == SPEC_PROJECTION_LATLONG)
 		return (double)panorama->width / 4;
 	return (double)panorama->width / (double)shapes[panorama->projection].wide;
@@ -88,7 +87,7 @@ spec_panorama_like(
 	double face = quarter(other);
 
 	if (height == 0 && projection == SPEC_PROJECTION_OCTAHEDRAL)
-		height = (size_t)ceil(face * 4 / sqrt(PI));
+		height = (size_t)ceil(face * 4 / sqrt(M_PI));
 	else if (height == 0 && projection == SPEC_PROJECTION_LATLONG)
 		height = (size_t)ceil(2 * face);
 	else if (height == 0)
@@ -310,7 +309,7 @@ static void
 to_square(const double d[3], double *u, double *v)
 {
 	double r = sqrt(fmax(0, 1 - fabs(d[2])));
-	double turn = atan2(fabs(d[1]), fabs(d[0])) * 2 / PI, across = turn * r;
+	double turn = atan2(fabs(d[1]), fabs(d[0])) * 2 / M_PI, across = turn * r;
 	double along = r - across;
 
 	if (d[2] < 0) {
@@ -327,7 +326,7 @@ static void
 from_square(double u, double v, double d[3])
 {
 	double side = 1 - (fabs(u) + fabs(v)), r = 1 - fabs(side);
-	double turn = (r == 0 ? 1 : (fabs(v) - fabs(u)) / r + 1) * PI / 4;
+	double turn = (r == 0 ? 1 : (fabs(v) - fabs(u)) / r + 1) * M_PI / 4;
 	double sine = r * sqrt(fmax(0, 2 - r * r));
 
 	d[0] = copysign(cos(turn), u) * sine;
@@ -357,7 +356,7 @@ spec_panorama_direction(
 	const struct spec_panorama *panorama, double x, double y, double direction[3])
 {
 	double width = (double)panorama->width, height = (double)panorama->height;
-	double polar = PI * y / height, azimuth = 2 * PI * x / width;
+	double polar = M_PI * y / height, azimuth = 2 * M_PI * x / width;
 
 	switch (panorama->projection) {
 	case SPEC_PROJECTION_LATLONG:
@@ -398,9 +397,9 @@ spec_panorama_around(const struct spec_panorama *panorama, const double directio
 		x = (x + 1) / 2 * width - .5;
 		y = (y + 1) / 2 * height - .5;
 	} else if (panorama->projection == SPEC_PROJECTION_LATLONG) {
-		x = atan2(direction[1], direction[0]) / (2 * PI);
+		x = atan2(direction[1], direction[0]) / (2 * M_PI);
 		x = (x < 0 ? x + 1 : x) * width - .5;
-		y = acos(fmin(fmax(direction[2], -1), 1)) / PI * height - .5;
+		y = acos(fmin(fmax(direction[2], -1), 1)) / M_PI * height - .5;
 	} else {
 		blend_cross(panorama, direction, &blend);
 		return blend;

@@ -5,8 +5,6 @@
 #include "base/vector.h"
 #include "optics/disc.h"
 
-#define PI 3.14159265358979323846
-
 #define RUN 256        /* pixels worked on together: they stay in the nearest cache */
 #define SIDE_ORDERS 3  /* T 7.4: the side strips on each side of the middle */
 #define NEAR_RAD 3.4   /* widest side strip of which two orders away 4e-14 is left */
@@ -17,13 +15,13 @@
 static double
 lobe_height(const struct spec_disc *disc, double width_rad)
 {
-	return disc->strip_height * sqrt(PI) / (2 * width_rad);
+	return disc->strip_height * sqrt(M_PI) / (2 * width_rad);
 }
 
 static double
 phase_of_pits(const struct spec_disc *disc, double along, double wavelength_nm)
 {
-	return 2 * PI / wavelength_nm * disc->pit_nm * along;
+	return 2 * M_PI / wavelength_nm * disc->pit_nm * along;
 }
 
 static double
@@ -40,8 +38,8 @@ spec_disc_side_strips(const struct spec_disc *disc, double along, double wavelen
 	double phase = phase_of_pits(disc, along, wavelength_nm), sum = 0;
 
 	for (int n = 1; n <= SIDE_ORDERS; n++)
-		sum += lobe(phase - 2 * PI * n, disc->side_width_rad) +
-		       lobe(phase + 2 * PI * n, disc->side_width_rad);
+		sum += lobe(phase - 2 * M_PI * n, disc->side_width_rad) +
+		       lobe(phase + 2 * M_PI * n, disc->side_width_rad);
 	return lobe_height(disc, disc->side_width_rad) * sum + disc->strip_floor;
 }
 
@@ -199,7 +197,7 @@ static void
 add_smooth(const struct composite *run, const struct spec_disc *disc,
 	const struct spec_disc_bands *bands, double *reflection, size_t stride)
 {
-	double turn = 2 * PI / disc->side_width_rad;
+	double turn = 2 * M_PI / disc->side_width_rad;
 	struct strips strips = {0, -4 * turn * turn,
 		lobe_height(disc, disc->side_width_rad), disc->strip_floor};
 

@@ -5,8 +5,6 @@
 
 #include "base/vector.h"
 
-#define PI 3.14159265358979323846
-
 #define PARALLEL 1e-12 /* squared sine of an angle that float vectors cannot tell from 0 */
 
 /*
@@ -44,7 +42,7 @@ static const struct spec_disc discs[] = {
 		.pit_width_nm = 600,
 		.pit_depth_nm = 125,
 		.index = 1.58,
-		.lobe_width = PI / 360,
+		.lobe_width = M_PI / 360,
 		COMPOSITE_OF_T},
 	{.name = "dvd",
 		.track_nm = 740,
@@ -52,7 +50,7 @@ static const struct spec_disc discs[] = {
 		.pit_width_nm = 320,
 		.pit_depth_nm = 103,
 		.index = 1.58,
-		.lobe_width = PI / 360,
+		.lobe_width = M_PI / 360,
 		COMPOSITE_OF_T},
 	{.name = "bluray",
 		.track_nm = 320,
@@ -60,12 +58,12 @@ static const struct spec_disc discs[] = {
 		.pit_width_nm = 130,
 		.pit_depth_nm = 64,
 		.index = 1.58,
-		.lobe_width = PI / 360,
+		.lobe_width = M_PI / 360,
 		COMPOSITE_OF_T},
 	{.name = "vinyl",
 		.track_nm = 100000,
 		.index = 1.54,
-		.lobe_width = PI / 360,
+		.lobe_width = M_PI / 360,
 		.groove_scale = .04,
 		.strip_floor = 1,
 		.groove_decay = 10,

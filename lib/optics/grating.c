@@ -2,8 +2,6 @@
 
 #include <math.h>
 
-#define PI 3.14159265358979323846
-
 /* The outgoing direction's component across the grooves. */
 static double
 across(const double incident[3], int order, double wavelength_nm, double pitch_nm)
@@ -63,7 +61,7 @@ spec_grating_orders(const double incident[3], double wavelength_nm, double pitch
 double
 spec_grating_phase(double depth_nm, double index, double wavelength_nm)
 {
-	return 4 * PI * index * depth_nm / wavelength_nm;
+	return 4 * M_PI * index * depth_nm / wavelength_nm;
 }
 
 double
@@ -74,6 +72,6 @@ spec_grating_lamellar(double width_ratio, double phase_rad, int order)
 	if (order == 0)
 		return 1 - 4 * width_ratio * (1 - width_ratio) * retarded * retarded;
 	/* Whole turns are taken off first: the orders that vanish do so exactly. */
-	share = sin(PI * (turns - rint(turns))) / (PI * order);
+	share = sin(M_PI * (turns - rint(turns))) / (M_PI * order);
 	return 4 * retarded * retarded * share * share;
 }

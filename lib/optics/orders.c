@@ -6,8 +6,6 @@
 #include "optics/disc.h"
 #include "optics/grating.h"
 
-#define PI 3.14159265358979323846
-
 #define RUN 256 /* pixels worked on together: they stay in the nearest cache */
 #define CUT 8   /* standard deviations after which a lobe ends */
 
@@ -47,7 +45,7 @@ density(double *restrict value, const double *restrict x, double centre, double 
 	size_t count)
 {
 	const double decay_rate = -.5 / (width * width),
-		     height = 1 / (width * sqrt(2 * PI));
+		     height = 1 / (width * sqrt(2 * M_PI));
 
 	for (size_t i = 0; i < count; i++)
 		value[i] = height *

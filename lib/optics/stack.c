@@ -1,5 +1,6 @@
 #include "optics/stack.h"
 
+#include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
@@ -7,7 +8,6 @@
 #include "base/memory.h"
 #include "base/vector.h"
 
-#define PI 3.14159265358979323846
 #define LANES 128    /* worked on together: their state stays in the nearest cache */
 #define RESCALE 16   /* layers after which fields are made about 1 again */
 #define LEAST 1e-100 /* |q|^2 of a layer where light runs along it: not 0 */
@@ -436,13 +436,13 @@ set_phase(struct lanes *lanes, const struct spec_stack *stack, size_t layer, siz
 	double thickness_nm = stack->thickness_nm[layer - 1];
 
 	if (count == 1 && layer == stack->varied)
-		multiply(lanes->phase, varied_nm, 4 * PI / wavelength_nm[0]);
+		multiply(lanes->phase, varied_nm, 4 * M_PI / wavelength_nm[0]);
 	else if (count == 1)
-		fill_constant(lanes->phase, 4 * PI * thickness_nm / wavelength_nm[0]);
+		fill_constant(lanes->phase, 4 * M_PI * thickness_nm / wavelength_nm[0]);
 	for (size_t i = 0; i < LANES && count > 1; i++) {
 		double d = layer == stack->varied ? varied_nm[i] : thickness_nm;
 
-		lanes->phase[i] = 4 * PI * d / wavelength_nm[i < count ? i : count - 1];
+		lanes->phase[i] = 4 * M_PI * d / wavelength_nm[i < count ? i : count - 1];
 	}
 }
 

@@ -6,8 +6,7 @@
 #include "base/vector.h"
 #include "spectrum/lookup.h"
 
-#define PI 3.14159265358979323846
-#define RADIANS (PI / 180)
+#define RADIANS (M_PI / 180)
 
 #define BANDS SPEC_DOME_BANDS
 #define TURBIDITIES 10
@@ -105,7 +104,7 @@ make_sky(double elevation_rad, const struct spec_atmosphere *atmosphere,
 	if (status == SPEC_OK)
 		status = load("sky/hosek-wilkie-radiance", tables * POINTS, &means, error);
 	find_corners(atmosphere->turbidity, atmosphere->ground_albedo, corner);
-	find_points(cbrt(elevation_rad / (PI / 2)), point);
+	find_points(cbrt(elevation_rad / (M_PI / 2)), point);
 	for (size_t i = 0; i < BANDS && status == SPEC_OK; i++) {
 		for (size_t j = 0; j < SHAPES; j++)
 			dome->distribution[j][i] =
@@ -122,9 +121,9 @@ static double
 sun_radiance(
 	const struct spec_curve *data, size_t band, int turbidity, double elevation_rad)
 {
-	int piece = (int)fmin(cbrt(elevation_rad / (PI / 2)) * PIECES, PIECES - 1);
+	int piece = (int)fmin(cbrt(elevation_rad / (M_PI / 2)) * PIECES, PIECES - 1);
 	double start = piece / (double)PIECES;
-	double x = elevation_rad - start * start * start * (PI / 2), value = 0;
+	double x = elevation_rad - start * start * start * (M_PI / 2), value = 0;
 	size_t first = ((size_t)(turbidity - 1) * PIECES + (size_t)piece) * POWERS;
 
 	for (size_t i = 0; i < POWERS; i++)
@@ -320,7 +319,7 @@ spec_dome_disc_sr(const struct spec_dome *dome)
 {
 	double half = sin(dome->radius_rad / 2);
 
-	return 4 * PI * half * half;
+	return 4 * M_PI * half * half;
 }
 
 /* ---- wavelengths ---- */

@@ -1,5 +1,6 @@
 #include "place/own.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,7 +12,6 @@
 #include "spectrum/lookup.h"
 
 #define NAME "daylight"
-#define PI 3.14159265358979323846
 
 int
 spec_own_light_is_named(const char *name)
@@ -100,7 +100,7 @@ spec_own_light(const char *name, const struct spec_image *image, const char *fil
 	}
 	spec_text_free(&text);
 	for (size_t i = 0; i < curve->count && status == SPEC_OK; i++)
-		curve->value[i] /= PI;
+		curve->value[i] /= M_PI;
 	if (status == SPEC_OK)
 		status = spec_curve_set_text(&curve->quantity, "radiance per nm", error);
 	if (status == SPEC_OK)

@@ -6,7 +6,6 @@
 #include "base/memory.h"
 #include "render/through.h"
 
-#define PI 3.14159265358979323846
 #define ON 2e-6 /* of a sphere's radius: a point so near counts as on it */
 /*
  * How far off an area rays may meet it, of the size of the numbers that it is computed from:
@@ -76,7 +75,7 @@ spec_area_make(struct spec_area *area, const struct spec_scene_shape *shape,
 		return measure_mesh(area, error);
 	if (shape->kind == SPEC_SCENE_DISK) {
 		disk_axes(shape, &x, &y);
-		area->area = PI * (r * r - inner * inner) *
+		area->area = M_PI * (r * r - inner * inner) *
 			     spec_vector_length(spec_vector_cross(x, y));
 		return SPEC_OK;
 	}
@@ -85,7 +84,7 @@ spec_area_make(struct spec_area *area, const struct spec_scene_shape *shape,
 			"a sphere that shines cannot be stretched yet");
 	area->radius = r * scale;
 	area->middle = spec_through_point(shape->world.m, (struct spec_vector){0, 0, 0});
-	area->area = 4 * PI * area->radius * area->radius;
+	area->area = 4 * M_PI * area->radius * area->radius;
 	return SPEC_OK;
 }
 
@@ -138,7 +137,8 @@ sample_disk(const struct spec_area *area, const double pair[2], struct spec_vect
 	struct spec_vector *normal)
 {
 	const struct spec_scene_shape *shape = area->shape;
-	double inner = shape->inner_radius, outer = shape->radius, angle = 2 * PI * pair[1];
+	double inner = shape->inner_radius, outer = shape->radius,
+	       angle = 2 * M_PI * pair[1];
 	double r = sqrt(inner * inner + pair[0] * (outer * outer - inner * inner));
 
 	*point = spec_through_point(shape->world.m,
@@ -171,7 +171,7 @@ sample_sphere(const struct spec_area *area, struct spec_vector point, const doub
 	struct spec_frame frame;
 	struct spec_vector axis;
 	double cone = cone_of(area, point, &axis), cosine = 1 - pair[0] * cone;
-	double sine = sqrt(fmax(0, 1 - cosine * cosine)), angle = 2 * PI * pair[1];
+	double sine = sqrt(fmax(0, 1 - cosine * cosine)), angle = 2 * M_PI * pair[1];
 	double middle, half;
 	struct spec_vector to = spec_vector_subtract(area->middle, point);
 
@@ -184,7 +184,7 @@ sample_sphere(const struct spec_area *area, struct spec_vector point, const doub
 	half = area->radius * area->radius - (spec_vector_dot(to, to) - middle * middle);
 	half = sqrt(fmax(0, half));
 	sample->distance = cone < 2 ? middle - half : middle + half;
-	sample->density = 1 / (2 * PI * cone);
+	sample->density = 1 / (2 * M_PI * cone);
 	sample->normal = spec_vector_subtract(
 		spec_vector_along(point, sample->direction, sample->distance),
 		area->middle);
@@ -237,7 +237,7 @@ spec_area_density(const struct spec_area *area, const struct spec_hit *hit,
 	struct spec_vector axis, to;
 
 	if (area->shape->kind == SPEC_SCENE_SPHERE)
-		return 1 / (2 * PI * cone_of(area, from, &axis));
+		return 1 / (2 * M_PI * cone_of(area, from, &axis));
 	to = spec_vector_subtract(hit->point, from);
 	return spec_vector_dot(to, to) /
 	       (area->area * fabs(spec_vector_dot(hit->normal, direction)));

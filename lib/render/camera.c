@@ -4,13 +4,11 @@
 
 #include "render/through.h"
 
-#define PI 3.14159265358979323846
-
 void
 spec_camera_make(
 	struct spec_camera *camera, const struct spec_scene *scene, int width, int height)
 {
-	double aspect = (double)width / height, half = tan(scene->fov_deg * PI / 360);
+	double aspect = (double)width / height, half = tan(scene->fov_deg * M_PI / 360);
 	double x = aspect > 1 ? aspect : 1, y = aspect > 1 ? 1 : 1 / aspect;
 	double window[4] = {-x, x, -y, y};
 
@@ -24,7 +22,7 @@ spec_camera_make(
 static struct spec_vector
 look_around(double right, double down)
 {
-	double azimuth = 2 * PI * right, polar = PI * down;
+	double azimuth = 2 * M_PI * right, polar = M_PI * down;
 
 	return (struct spec_vector){
 		sin(polar) * cos(azimuth), cos(polar), sin(polar) * sin(azimuth)};
@@ -49,7 +47,7 @@ spec_camera_ray(
 
 		spec_sampler_pair(sampler, pair);
 		radius = scene->lens_radius * sqrt(pair[0]);
-		angle = 2 * PI * pair[1];
+		angle = 2 * M_PI * pair[1];
 		origin = (struct spec_vector){radius * cos(angle), radius * sin(angle), 0};
 		direction = spec_vector_subtract(focus, origin);
 	}

@@ -6,7 +6,6 @@
 #include "base/memory.h"
 #include "base/vector.h"
 
-#define PI 3.14159265358979323846
 #define SHARE_ROWS 128  /* of directions, 1.4 degrees high each */
 #define BIN_STEP_NM 1.0 /* bins are averaged at points no farther apart, and at 4 or more */
 #define LEAST_POINTS 4
@@ -133,13 +132,14 @@ irradiate(const struct spec_dome *dome, double irradiance[SPEC_DOME_BANDS])
 		double sine = sqrt((i + 0.5) / RINGS), cosine = sqrt(1 - sine * sine);
 
 		for (int j = 0; j < SECTORS; j++) {
-			double angle = 2 * PI * (j + 0.5) / SECTORS, band[SPEC_DOME_BANDS];
+			double angle = 2 * M_PI * (j + 0.5) / SECTORS,
+			       band[SPEC_DOME_BANDS];
 			double direction[3] = {
 				sine * sin(angle), sine * cos(angle), cosine};
 
 			spec_dome_sky(dome, direction, band);
 			for (size_t k = 0; k < SPEC_DOME_BANDS; k++)
-				irradiance[k] += band[k] * PI / (RINGS * SECTORS);
+				irradiance[k] += band[k] * M_PI / (RINGS * SECTORS);
 		}
 	}
 }
@@ -162,9 +162,10 @@ light_ground(struct spec_daylight *daylight, double albedo, struct spec_error *e
 	irradiate(dome, from_sky);
 	for (size_t i = 0; i < SPEC_DOME_BANDS; i++)
 		from_sun[i] = dome->disc[i] * daylight->sun_sr * dome->sun[2];
-	add_share(daylight, &daylight->sky, from_sky, ones, albedo / PI, daylight->ground);
+	add_share(
+		daylight, &daylight->sky, from_sky, ones, albedo / M_PI, daylight->ground);
 	if (daylight->has_sun)
-		add_share(daylight, &daylight->disc, from_sun, ones, albedo / PI,
+		add_share(daylight, &daylight->disc, from_sun, ones, albedo / M_PI,
 			daylight->ground);
 	free(ones);
 	return SPEC_OK;
@@ -199,11 +200,11 @@ share_directions(struct spec_daylight *daylight, struct spec_error *error)
 
 	if (status != SPEC_OK)
 		return status;
-	rest = 4 * PI * daylight->shares.mean;
+	rest = 4 * M_PI * daylight->shares.mean;
 	if (daylight->has_sun)
 		sun = daylight->sun_sr *
 		      mean_of_share(daylight, &daylight->disc, daylight->dome.disc);
-	daylight->mean = (sun + rest) / (4 * PI);
+	daylight->mean = (sun + rest) / (4 * M_PI);
 	daylight->sun_chance = sun > 0 ? (sun / (sun + rest) + 0.5) / 2 : 0;
 	return SPEC_OK;
 }
@@ -257,7 +258,7 @@ versine_to_sun(const struct spec_daylight *daylight, struct spec_vector local)
 static double
 versine_of_disc(const struct spec_daylight *daylight)
 {
-	return daylight->sun_sr / (2 * PI);
+	return daylight->sun_sr / (2 * M_PI);
 }
 
 void
@@ -303,7 +304,7 @@ spec_daylight_sample(const struct spec_daylight *daylight, const double pair[2],
 
 	if (number < daylight->sun_chance) {
 		double versine = pair[0] * versine_of_disc(daylight);
-		double sine = sqrt(versine * (2 - versine)), angle = 2 * PI * pair[1];
+		double sine = sqrt(versine * (2 - versine)), angle = 2 * M_PI * pair[1];
 
 		local = spec_frame_to_world(
 			&daylight->sun, (struct spec_vector){sine * cos(angle),

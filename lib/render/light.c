@@ -11,8 +11,6 @@
 #include "render/surroundings.h"
 #include "render/through.h"
 
-#define PI 3.14159265358979323846
-
 /* One thing that may be chosen: a light without a shape, or a shape that shines. */
 struct emitter {
 	enum spec_scene_light_kind kind;
@@ -52,16 +50,16 @@ power_of(const struct spec_lights *lights, const struct emitter *emitter)
 	for (size_t i = 0; i < lights->bands; i++)
 		mean += emitter->value[i] / (double)lights->bands;
 	if (emitter->kind == SPEC_SCENE_POINT)
-		return 4 * PI * mean;
+		return 4 * M_PI * mean;
 	if (emitter->kind == SPEC_SCENE_DISTANT)
-		return PI * square * mean;
+		return M_PI * square * mean;
 	if (emitter->kind == SPEC_SCENE_INFINITE && lights->picture.pixel)
 		mean *= lights->picture.mean;
 	else if (emitter->kind == SPEC_SCENE_INFINITE && has_picture(lights))
 		mean *= lights->daylight.mean;
 	if (emitter->kind == SPEC_SCENE_INFINITE)
-		return 4 * PI * PI * square * mean;
-	return emitter->area.area * PI * mean * (light->twosided ? 2 : 1);
+		return 4 * M_PI * M_PI * square * mean;
+	return emitter->area.area * M_PI * mean * (light->twosided ? 2 : 1);
 }
 
 static enum spec_status
@@ -278,10 +276,11 @@ sample_surroundings(const struct spec_lights *lights, const struct emitter *emit
 	const double pair[2], double number, struct spec_light_sample *sample)
 {
 	const struct spec_scene_light *light = &lights->scene->light[emitter->light];
-	double z = 1 - 2 * pair[0], r = sqrt(fmax(0, 1 - z * z)), angle = 2 * PI * pair[1];
+	double z = 1 - 2 * pair[0], r = sqrt(fmax(0, 1 - z * z)),
+	       angle = 2 * M_PI * pair[1];
 	struct spec_vector local = {r * cos(angle), r * sin(angle), z};
 
-	sample->density = 1 / (4 * PI);
+	sample->density = 1 / (4 * M_PI);
 	sample->direction = local;
 	if (lights->picture.pixel) {
 		sample->density = spec_surroundings_sample(&lights->picture, pair, &local);
@@ -470,5 +469,5 @@ spec_lights_surroundings_density(
 	if (has_picture(lights))
 		return emitter->chance *
 		       spec_daylight_density(&lights->daylight, direction);
-	return emitter->chance / (4 * PI);
+	return emitter->chance / (4 * M_PI);
 }

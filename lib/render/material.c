@@ -1,5 +1,6 @@
 #include "render/material.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -7,7 +8,6 @@
 #include "base/vector.h"
 #include "optics/fresnel.h"
 
-#define PI 3.14159265358979323846
 #define SMOOTHEST 1e-3    /* alpha below which a surface is a mirror */
 #define LEAST_CHANCE 0.05 /* of either side of a choice that is not sure */
 
@@ -244,7 +244,7 @@ sample_cosine(const double pair[2])
 
 	if (radius == 0)
 		return (struct spec_vector){0, 0, 1};
-	angle = PI / 4 * (at[!longer] / radius);
+	angle = M_PI / 4 * (at[!longer] / radius);
 	at[longer] = radius * small_cosine(angle);
 	at[!longer] = radius * small_sine(angle);
 	return (struct spec_vector){at[0], at[1], sqrt(1 - radius * radius)};
@@ -258,7 +258,7 @@ facets(const double alpha[2], struct spec_vector m)
 	double x = m.x / alpha[0], y = m.y / alpha[1];
 	double square = x * x + y * y + m.z * m.z;
 
-	return 1 / (PI * alpha[0] * alpha[1] * square * square);
+	return 1 / (M_PI * alpha[0] * alpha[1] * square * square);
 }
 
 static double
@@ -275,7 +275,7 @@ sample_facet(const double alpha[2], struct spec_vector eye, const double pair[2]
 	struct spec_vector stretched = spec_vector_unit(
 		(struct spec_vector){alpha[0] * eye.x, alpha[1] * eye.y, eye.z});
 	struct spec_frame frame = spec_frame_about(stretched);
-	double radius = sqrt(pair[0]), angle = 2 * PI * pair[1];
+	double radius = sqrt(pair[0]), angle = 2 * M_PI * pair[1];
 	double a = radius * cos(angle), b = radius * sin(angle);
 	double seen = (1 + stretched.z) / 2, c;
 	struct spec_vector up, across, m;
@@ -375,10 +375,10 @@ disc_density(
 {
 	struct spec_vector half = spec_vector_unit(spec_vector_add(eye, to));
 	double alpha = material->disc.specular_exponent;
-	double lobe = (alpha + 1) / (2 * PI) * pow(fmax(half.z, 0), alpha);
+	double lobe = (alpha + 1) / (2 * M_PI) * pow(fmax(half.z, 0), alpha);
 	double cosine = spec_vector_dot(eye, half);
 
-	return to.z / PI / 2 + (cosine > 0 ? lobe / (4 * cosine) / 2 : 0);
+	return to.z / M_PI / 2 + (cosine > 0 ? lobe / (4 * cosine) / 2 : 0);
 }
 
 static double
@@ -424,7 +424,8 @@ sample_disc(const struct spec_surface *surface, struct spec_sampler *sampler,
 		to = sample_cosine(pair);
 	} else {
 		double cosine = pow(1 - pair[0], 1 / (alpha + 1));
-		double sine = sqrt(fmax(0, 1 - cosine * cosine)), angle = 2 * PI * pair[1];
+		double sine = sqrt(fmax(0, 1 - cosine * cosine)),
+		       angle = 2 * M_PI * pair[1];
 
 		to = spec_vector_mirror(eye,
 			(struct spec_vector){sine * cos(angle), sine * sin(angle), cosine});
@@ -607,7 +608,7 @@ spec_material_evaluate(const struct spec_surface *surface, struct spec_vector li
 	if (material->kind != SPEC_SCENE_DIFFUSE || !(cosine > 0))
 		return 0;
 	value->value = material->reflectance;
-	return value->scale = cosine / PI;
+	return value->scale = cosine / M_PI;
 }
 
 static double
@@ -624,7 +625,7 @@ sample_diffuse(const struct spec_surface *surface, struct spec_sampler *sampler,
 		return -1;
 	*direction = spec_frame_to_world(&frame, local);
 	weight->value = surface->material->reflectance;
-	return local.z / PI;
+	return local.z / M_PI;
 }
 
 double

@@ -1,5 +1,6 @@
 #include "render/surroundings.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -7,7 +8,6 @@
 #include "base/vector.h"
 #include "image/reader.h"
 
-#define PI 3.14159265358979323846
 #define FLOOR 1e-3 /* of the mean: dark pixels are chosen now and then, too */
 
 /* Which two bands of the image a band lies between, and how far; part < 0: outside. */
@@ -143,7 +143,7 @@ accumulate(double *share, size_t count)
 static double
 sine_of_row(const struct spec_surroundings *s, size_t y)
 {
-	return sin(PI * ((double)y + 0.5) / (double)s->height);
+	return sin(M_PI * ((double)y + 0.5) / (double)s->height);
 }
 
 /* The mean over bands of each pixel into column[1..width], and over everything. */
@@ -274,7 +274,8 @@ spec_surroundings_read(struct spec_surroundings *s, const char *path,
 static struct spec_vector
 direction_to(const struct spec_surroundings *s, double x, double y)
 {
-	double polar = PI * y / (double)s->height, azimuth = 2 * PI * x / (double)s->width;
+	double polar = M_PI * y / (double)s->height,
+	       azimuth = 2 * M_PI * x / (double)s->width;
 
 	return (struct spec_vector){
 		sin(polar) * cos(azimuth), sin(polar) * sin(azimuth), cos(polar)};
@@ -314,8 +315,8 @@ place_of(const struct spec_surroundings *s, struct spec_vector d, double *x, dou
 {
 	double azimuth = atan2(d.y, d.x);
 
-	*x = (azimuth < 0 ? azimuth + 2 * PI : azimuth) / (2 * PI) * (double)s->width;
-	*y = acos(fmin(fmax(d.z, -1), 1)) / PI * (double)s->height;
+	*x = (azimuth < 0 ? azimuth + 2 * M_PI : azimuth) / (2 * M_PI) * (double)s->width;
+	*y = acos(fmin(fmax(d.z, -1), 1)) / M_PI * (double)s->height;
 }
 
 SPEC_VECTORISED static void
@@ -382,7 +383,7 @@ density_at(const struct spec_surroundings *s, size_t x, size_t y, double sine)
 
 	if (!(sine > 0))
 		return 0;
-	return share * (double)s->width * (double)s->height / (2 * PI * PI * sine);
+	return share * (double)s->width * (double)s->height / (2 * M_PI * M_PI * sine);
 }
 
 double
@@ -394,7 +395,7 @@ spec_surroundings_sample(const struct spec_surroundings *s, const double pair[2]
 	size_t x = find_share(s->column + y * (s->width + 1), s->width, pair[0], &px);
 
 	*direction = direction_to(s, (double)x + px, (double)y + py);
-	return density_at(s, x, y, sin(PI * ((double)y + py) / (double)s->height));
+	return density_at(s, x, y, sin(M_PI * ((double)y + py) / (double)s->height));
 }
 
 double

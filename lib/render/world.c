@@ -2,6 +2,7 @@
 
 #include <embree3/rtcore.h>
 #include <float.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -9,7 +10,6 @@
 #include "base/memory.h"
 #include "render/through.h"
 
-#define PI 3.14159265358979323846
 /*
  * How far from a surface a ray starts, of the size of the numbers that its place was computed
  * from: 33 ulps of single precision where that was Embree's, else 450000 of double precision.
@@ -453,10 +453,10 @@ describe_quadric(const struct spec_scene_shape *shape, struct spec_hit *hit)
 	if (distance == 0)
 		tangent = (struct spec_vector){1, 0, 0};
 	hit->tangent = spec_vector_unit(spec_through_direction(shape->world.m, tangent));
-	hit->u = (azimuth < 0 ? azimuth + 2 * PI : azimuth) / (2 * PI);
+	hit->u = (azimuth < 0 ? azimuth + 2 * M_PI : azimuth) / (2 * M_PI);
 	hit->object = (struct spec_vector){(p.x / r + 1) / 2, (p.y / r + 1) / 2, 0};
 	if (shape->kind == SPEC_SCENE_SPHERE) {
-		hit->v = 1 - acos(fmin(fmax(p.z / r, -1), 1)) / PI;
+		hit->v = 1 - acos(fmin(fmax(p.z / r, -1), 1)) / M_PI;
 		hit->object.z = (p.z / r + 1) / 2;
 	} else {
 		hit->v = r > shape->inner_radius

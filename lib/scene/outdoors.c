@@ -10,8 +10,7 @@
 #include "place/sunlight.h"
 #include "scene/transform.h"
 
-#define PI 3.14159265358979323846
-#define RADIANS (PI / 180)
+#define RADIANS (M_PI / 180)
 #define NEAREST_M 1e-3  /* places no farther apart have no bearing */
 #define SMALLEST 1e-6   /* the sine between two directions that are told apart */
 #define STEEPEST_DEG 89 /* what looks straight up has no bearing */
