@@ -332,6 +332,7 @@ convert_curves(const struct cli *cli, struct job *job, int argc, char **argv,
 			&job->overflows, error);
 	for (size_t i = 0; curve && i < job->inputs; i++)
 		spec_curve_free(&curve[i]);
+	job->into.attributes = NULL;
 	spec_image_clear(&said);
 	free(curve);
 	return status;

@@ -108,7 +108,7 @@ enum spec_status
 spec_number_parse_int(const char *text, int minimum, int maximum, const char *what,
 	int *value, struct spec_error *error)
 {
-	long long number;
+	long long number = 0;
 	enum spec_status status =
 		spec_number_parse_whole(text, minimum, maximum, what, &number, error);
 

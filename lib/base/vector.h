@@ -32,7 +32,7 @@ SPEC_VECTOR_FUNCTION(double, spec_vector_sin, "sin");
 SPEC_VECTOR_FUNCTION(double, spec_vector_cos, "cos");
 SPEC_VECTOR_FUNCTION(double, spec_vector_exp, "exp");
 SPEC_VECTOR_FUNCTION(double, spec_vector_expm1, "expm1");
-SPEC_VECTOR_FUNCTION(double, spec_vector_erf, "erf"); /* since glibc 2.35 */
+SPEC_VECTOR_FUNCTION(double, spec_vector_erf, "erf");   /* since glibc 2.35 */
 SPEC_VECTOR_FUNCTION(double, spec_vector_cbrt, "cbrt"); /* since glibc 2.35 */
 SPEC_VECTOR_FUNCTION(double, spec_vector_log, "log");
 SPEC_VECTOR_FUNCTION(float, spec_vector_expf, "expf");

@@ -43,24 +43,6 @@ LLVMFuzzerInitialize(int *argc, char ***argv)
 }
 
 static void
-check_error(const struct spec_error *error)
-{
-	const char *first = error->place, *second = strchr(first, '\n');
-
-	require(error->status != SPEC_OK, "a failure without a status");
-	require(error->message[0] && !strchr(error->message, '\n'),
-		"not one line's message");
-	if (error->status == SPEC_ENOMEM)
-		return;
-	require(second != NULL, "a failure without a place");
-	second++;
-	require(strspn(second, " ") + 1 == strlen(second) &&
-			second[strlen(second) - 1] == '^',
-		"no caret");
-	require(strlen(second) <= (size_t)(second - first), "a caret behind the text");
-}
-
-static void
 check_nodes(const struct spec_expression *expression)
 {
 	require(expression->result < expression->count &&
@@ -141,7 +123,7 @@ check_program(const struct spec_expression *expression, size_t band, int stokes)
 	for (int i = 0; i < IMAGES; i++)
 		channel[i] = spec_program_band(images[i], band, stokes);
 	if (spec_program_make(&program, expression, &place, &error) != SPEC_OK) {
-		check_error(&error);
+		require_caret(&error);
 		require(!program.row && !program.instruction, "not left empty");
 		return;
 	}
@@ -166,7 +148,7 @@ LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 	memcpy(text, data, size);
 	text[size] = '\0';
 	if (spec_expression_parse(text, IMAGES, &expression, &error) != SPEC_OK) {
-		check_error(&error);
+		require_caret(&error);
 		require(!expression.text && !expression.node, "not left empty");
 	} else {
 		check_nodes(&expression);

@@ -21,24 +21,6 @@ LLVMFuzzerInitialize(int *argc, char ***argv)
 }
 
 static void
-check_error(const struct spec_error *error)
-{
-	const char *first = error->place, *second = strchr(first, '\n');
-
-	require(error->status != SPEC_OK, "a failure without a status");
-	require(error->message[0] && !strchr(error->message, '\n'),
-		"not one line's message");
-	if (error->status == SPEC_ENOMEM)
-		return;
-	require(second != NULL, "a failure without a place");
-	second++;
-	require(strspn(second, " ") + 1 == strlen(second) &&
-			second[strlen(second) - 1] == '^',
-		"no caret");
-	require(strlen(second) <= (size_t)(second - first), "a caret behind the text");
-}
-
-static void
 check_layers(const struct spec_recipe *recipe)
 {
 	size_t layers = spec_recipe_layers(recipe), number = 0;
@@ -79,7 +61,7 @@ check_indices(const struct spec_recipe *recipe)
 		require(n[i] >= 0 && k[i] >= 0 && n[i] + k[i] > 0 && n[i] + k[i] <= 2e6,
 			"an index out of range");
 	if (n && k && status != SPEC_OK)
-		check_error(&error);
+		require_caret(&error);
 	free(n);
 	free(k);
 }
@@ -137,7 +119,7 @@ LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 	memcpy(text, data, size);
 	text[size] = '\0';
 	if (spec_recipe_parse(text, &recipe, &error) != SPEC_OK) {
-		check_error(&error);
+		require_caret(&error);
 		require(recipe.text == NULL && recipe.layer == NULL, "not left empty");
 	} else {
 		check_layers(&recipe);

@@ -29,9 +29,7 @@ LLVMFuzzerInitialize(int *argc, char ***argv)
 static void
 check_error(const struct spec_error *error, const char *name)
 {
-	require(error->status != SPEC_OK, "a failure without a status");
-	require(error->message[0] && !strchr(error->message, '\n'),
-		"not one line's message");
+	require_message(error);
 	require(error->status == SPEC_ENOMEM || strstr(error->message, name) != NULL,
 		"a message without the file's name");
 }
