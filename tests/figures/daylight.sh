@@ -3,7 +3,7 @@ title 'A clear day: light and colour of the sun and of the sky'
 from 'R. E. Bird and C. Riordan 1986 (SPCTRAL2); CIE 15:2018; Leuven, 17 May 2005'
 note 'sun@PLACE,TIME, sky@ and daylight@ are lights wherever a program takes one: spectral irradiance of a clear sky, here every quarter of an hour of one day.'
 
-cp "$here/series.awk" .
+cp "$here/plot.awk" .
 # From sunrise, 5:47, to sunset, 21:27.
 for ((minute = 6 * 60; minute <= 21 * 60 + 15; minute += 15)); do
   printf '50.88N 4.70E,2005-05-17T%02d:%02d+02:00\n' $((minute / 60)) $((minute % 60))
@@ -21,9 +21,9 @@ table() {
 }
 table illuminance 1e-3 >illuminance.txt
 table cct 1 >temperature.txt
-picture illuminance.svg 'awk -f series.awk -v across="hour (UTC+2)" -v up=klx -v top=100 -v step=20 -v tick=2 illuminance.txt >illuminance.svg' \
+picture illuminance.svg 'awk -f plot.awk -v across="hour (UTC+2)" -v up=klx -v top=100 -v step=20 -v tick=2 illuminance.txt >illuminance.svg' \
   'illuminance on the ground'
-picture temperature.svg 'awk -f series.awk -v across="hour (UTC+2)" -v up=K -v top=12000 -v step=2000 -v tick=2 temperature.txt >temperature.svg' \
+picture temperature.svg 'awk -f plot.awk -v across="hour (UTC+2)" -v up=K -v top=12000 -v step=2000 -v tick=2 temperature.txt >temperature.svg' \
   'correlated colour temperature'
 
 # at HOUR COLUMN FILE
@@ -52,7 +52,6 @@ check 'luminous efficacy of daylight at noon [lm/W]' \
 run 'specconvert --grid 300:1200:5 "sun@50.88N 4.70E,2005-05-17T13:30+02:00" -o sun.spd
 specconvert --grid 300:1200:5 "sky@50.88N 4.70E,2005-05-17T13:30+02:00" -o sky.spd
 specconvert --grid 300:1200:5 "sun@50.88N 4.70E,2005-05-17T20:30+02:00" -o evening.spd'
-cp "$here/plot.awk" .
 picture spectra.svg 'awk -f plot.awk sun.spd sky.spd evening.spd >spectra.svg' \
   'the sun and the sky at noon, and the sun an hour before its setting, each over its greatest value'
 # The sky is blue since molecules scatter as the wavelength to the power -4: bluer than sunlight by this, but for

@@ -3,7 +3,7 @@ title 'The sun through a year'
 from 'I. Reda and A. Andreas, NREL/TP-560-34302 (2003, revised 2008); The Astronomical Almanac for 2024; J. Meeus, Astronomical Algorithms (1998)'
 note 'specinfo --sun has the apparent sun of any place and time, with refraction and air mass, and when it rises, culminates and sets: here every fifth day of 2024.'
 
-cp "$here/series.awk" .
+cp "$here/plot.awk" .
 for ((day = 1; day <= 366; day += 5)); do
   printf '2024-%03dT12:00+01:00\n' $day
 done >times.txt
@@ -22,11 +22,11 @@ hours() {
 hours leuven.json >leuven.txt
 hours north.json >north.txt
 { echo '# columns: day equation'; jq -r '[.day_of_year, .equation_of_time_min] | join(" ")' leuven.json; } >equation.txt
-picture leuven.svg 'awk -f series.awk -v across="day of 2024" -v up="hour (UTC+1)" -v top=24 -v step=4 -v tick=30 leuven.txt >leuven.svg' \
+picture leuven.svg 'awk -f plot.awk -v across="day of 2024" -v up="hour (UTC+1)" -v top=24 -v step=4 -v tick=30 leuven.txt >leuven.svg' \
   'Leuven, 50.88 degrees north'
-picture north.svg 'awk -f series.awk -v across="day of 2024" -v up="hour (UTC+1)" -v top=26 -v step=2 -v tick=30 north.txt >north.svg' \
+picture north.svg 'awk -f plot.awk -v across="day of 2024" -v up="hour (UTC+1)" -v top=26 -v step=2 -v tick=30 north.txt >north.svg' \
   'a place on its meridian, 66 degrees north, half a degree from the polar circle'
-picture equation.svg 'awk -f series.awk -v across="day of 2024" -v up="minutes" -v bottom=-20 -v top=20 -v step=5 -v tick=30 equation.txt >equation.svg' \
+picture equation.svg 'awk -f plot.awk -v across="day of 2024" -v up="minutes" -v bottom=-20 -v top=20 -v step=5 -v tick=30 equation.txt >equation.svg' \
   'equation of time: how far the sundial is ahead of the clock'
 
 # The case that the paper works out, table A5.1 and appendix A.4, without refraction and with it.
