@@ -253,6 +253,8 @@ lint-shell: | $(READY)
 
 lint-man: | $(READY)
 	mandoc -Tlint -W warning $(PAGES)
+	@# There groff takes An for a macro, and loses the rest of the page.
+	! grep -n '^\.%[A-Z] An ' $(PAGES)
 
 # Installing. Below build/ everything but the pages already lies as it will be installed.
 
