@@ -601,8 +601,7 @@ show_false(struct cli *cli, struct job *job, struct spec_reader *reader,
 
 static void
 show_colours(struct cli *cli, struct job *job, struct spec_reader *reader,
-	const struct spec_image *image, int argc, char **argv,
-	struct cli_progress *progress)
+	const struct spec_image *image, struct cli_progress *progress)
 {
 	const char *name = spec_reader_name(reader);
 	struct spec_error error = {0};
@@ -619,7 +618,7 @@ show_colours(struct cli *cli, struct job *job, struct spec_reader *reader,
 		cli_progress_end(progress);
 	cli_check(cli, status, &error);
 	status = job->model ? spec_separate_run(&seen, reader, &rgb, job->model,
-				      &job->settings, argc, argv, &error)
+				      &job->settings, &error)
 			    : develop(job, reader, &rgb, &seen, &error);
 	cli_progress_end(progress);
 	cli_check(cli, status, &error);
@@ -689,6 +688,8 @@ main(int argc, char **argv)
 	cli_start(&cli, &program, argc, argv);
 	parse(&cli, &job);
 	cli_progress_start(&progress, "lines", job.settings.progress, job.settings.quiet);
+	job.settings.argc = argc;
+	job.settings.argv = argv;
 	job.settings.show = cli_progress_show;
 	job.settings.show_state = &progress;
 
@@ -697,7 +698,7 @@ main(int argc, char **argv)
 	if (choose(&cli, &job, reader, &chosen, &layer, &image))
 		show_false(&cli, &job, reader, image, &progress);
 	else
-		show_colours(&cli, &job, reader, image, argc, argv, &progress);
+		show_colours(&cli, &job, reader, image, &progress);
 	spec_image_clear(&chosen);
 	free(job.account);
 	spec_reader_close(reader);

@@ -223,7 +223,7 @@ open_mask(struct job *job, struct spec_error *error)
 }
 
 static enum spec_status
-combine(struct job *job, int argc, char **argv, struct spec_error *error)
+combine(struct job *job, struct spec_error *error)
 {
 	struct spec_arithmetic arithmetic = {0};
 	enum spec_status status = SPEC_OK;
@@ -235,8 +235,8 @@ combine(struct job *job, int argc, char **argv, struct spec_error *error)
 	if (status == SPEC_OK)
 		status = spec_arithmetic_plan(
 			&arithmetic, job->image, job->images, &job->setup, error);
-	if (status == SPEC_OK && job->settings.history)
-		status = spec_image_add_history(&arithmetic.image, argc, argv, error);
+	if (status == SPEC_OK)
+		status = spec_settings_record(&job->settings, &arithmetic.image, error);
 	if (status == SPEC_OK)
 		status = spec_arithmetic_run(
 			&arithmetic, job->reader, &job->settings, &job->overflows, error);
@@ -257,10 +257,12 @@ main(int argc, char **argv)
 	cli_start(&cli, &program, argc, argv);
 	parse(&cli, &job, &error);
 	cli_progress_start(&progress, "lines", job.settings.progress, job.settings.quiet);
+	job.settings.argc = argc;
+	job.settings.argv = argv;
 	job.settings.show = cli_progress_show;
 	job.settings.show_state = &progress;
 
-	status = combine(&job, argc, argv, &error);
+	status = combine(&job, &error);
 	cli_progress_end(&progress);
 	cli_check(&cli, status, &error);
 	if (!job.settings.quiet)

@@ -300,8 +300,7 @@ plan_curves(const struct job *job)
 }
 
 static enum spec_status
-convert_curves(const struct cli *cli, struct job *job, int argc, char **argv,
-	struct spec_error *error)
+convert_curves(const struct cli *cli, struct job *job, struct spec_error *error)
 {
 	struct spec_reshape reshape = plan_curves(job);
 	enum spec_status status = settle_curves(job, error);
@@ -328,7 +327,7 @@ convert_curves(const struct cli *cli, struct job *job, int argc, char **argv,
 	job->into.attributes = &said;
 	if (status == SPEC_OK)
 		status = spec_curve_output_save(&job->into, job->kind, curve, job->input,
-			job->inputs, job->change.setup.grid, &job->settings, argc, argv,
+			job->inputs, job->change.setup.grid, &job->settings,
 			&job->overflows, error);
 	for (size_t i = 0; curve && i < job->inputs; i++)
 		spec_curve_free(&curve[i]);
@@ -360,8 +359,7 @@ image_to_text(struct job *job, struct spec_reader *reader, struct spec_error *er
 
 /* An image of three colours becomes spectral; nothing else is done to it on the way. */
 static enum spec_status
-convert_colours(struct job *job, struct spec_reader *reader, int argc, char **argv,
-	struct spec_error *error)
+convert_colours(struct job *job, struct spec_reader *reader, struct spec_error *error)
 {
 	struct spec_convert_options without = job->change;
 	struct spec_fromrgb fromrgb;
@@ -374,8 +372,8 @@ convert_colours(struct job *job, struct spec_reader *reader, int argc, char **ar
 			"... | specconvert ...");
 	status = spec_fromrgb_plan(&fromrgb, spec_reader_image(reader), &job->from.colours,
 		spec_reader_name(reader), error);
-	if (status == SPEC_OK && job->settings.history)
-		status = spec_image_add_history(&fromrgb.image, argc, argv, error);
+	if (status == SPEC_OK)
+		status = spec_settings_record(&job->settings, &fromrgb.image, error);
 	if (status == SPEC_OK)
 		status = spec_fromrgb_run(
 			&fromrgb, reader, &job->settings, &job->overflows, error);
@@ -386,8 +384,8 @@ convert_colours(struct job *job, struct spec_reader *reader, int argc, char **ar
 
 /* Coefficients or lines in place of bands; bands are what every reader gives. */
 static enum spec_status
-convert_representation(struct job *job, struct spec_reader *reader, int argc, char **argv,
-	struct spec_error *error)
+convert_representation(
+	struct job *job, struct spec_reader *reader, struct spec_error *error)
 {
 	if (spec_convert_options_change(&job->change))
 		return spec_error_set(error, SPEC_EUSAGE,
@@ -396,14 +394,13 @@ convert_representation(struct job *job, struct spec_reader *reader, int argc, ch
 	if (job->settings.format && strcmp(job->settings.format, "exr") != 0)
 		return spec_error_set(error, SPEC_EUSAGE,
 			"only OpenEXR files hold other representations than bands");
-	return spec_represented_run(reader, &job->change.to, &job->settings, argc, argv,
-		&job->overflows, error);
+	return spec_represented_run(
+		reader, &job->change.to, &job->settings, &job->overflows, error);
 }
 
 /* What is all around is laid out anew, or a picture's codes are vectors. */
 static enum spec_status
-convert_layout(struct job *job, struct spec_reader *reader, int argc, char **argv,
-	struct spec_error *error)
+convert_layout(struct job *job, struct spec_reader *reader, struct spec_error *error)
 {
 	const char *option = job->vectors ? "--vectors" : "--projection";
 
@@ -413,10 +410,9 @@ convert_layout(struct job *job, struct spec_reader *reader, int argc, char **arg
 			"%s does nothing else on the way: specconvert ... | specconvert %s ...",
 			option, option);
 	if (job->vectors)
-		return spec_vectors_run(
-			reader, job->vectors, &job->settings, argc, argv, error);
+		return spec_vectors_run(reader, job->vectors, &job->settings, error);
 	return spec_reproject_run(reader, job->projection, job->height, &job->settings,
-		argc, argv, &job->overflows, error);
+		&job->overflows, error);
 }
 
 /* Whether --to asks an image for something else than the bands that it has anyway. */
@@ -463,8 +459,8 @@ check_image_options(const struct job *job, struct spec_error *error)
 }
 
 static enum spec_status
-convert_bands(const struct cli *cli, struct job *job, struct spec_reader *reader, int argc,
-	char **argv, struct spec_error *error)
+convert_bands(const struct cli *cli, struct job *job, struct spec_reader *reader,
+	struct spec_error *error)
 {
 	struct spec_convert convert = {0};
 	enum spec_status status =
@@ -475,8 +471,8 @@ convert_bands(const struct cli *cli, struct job *job, struct spec_reader *reader
 		status = spec_convert_plan(&convert, spec_reader_image(reader),
 			&job->change.setup, spec_reader_name(reader), error);
 
-	if (status == SPEC_OK && job->settings.history)
-		status = spec_image_add_history(&convert.image, argc, argv, error);
+	if (status == SPEC_OK)
+		status = spec_settings_record(&job->settings, &convert.image, error);
 	if (status == SPEC_OK)
 		status = spec_convert_run(
 			&convert, reader, &job->settings, &job->overflows, error);
@@ -487,8 +483,7 @@ convert_bands(const struct cli *cli, struct job *job, struct spec_reader *reader
 }
 
 static enum spec_status
-convert_image(const struct cli *cli, struct job *job, int argc, char **argv,
-	struct spec_error *error)
+convert_image(const struct cli *cli, struct job *job, struct spec_error *error)
 {
 	struct spec_reader *reader = NULL;
 	enum spec_status status = check_image_options(job, error);
@@ -506,15 +501,15 @@ convert_image(const struct cli *cli, struct job *job, int argc, char **argv,
 	if (status == SPEC_OK)
 		status = spec_placed_apply(&job->placed, spec_reader_header(reader), error);
 	if (status == SPEC_OK && (job->projects || job->vectors))
-		status = convert_layout(job, reader, argc, argv, error);
+		status = convert_layout(job, reader, error);
 	else if (status == SPEC_OK && spec_kind_is_text(job->kind))
 		status = image_to_text(job, reader, error);
 	else if (status == SPEC_OK && job->from.from_rgb)
-		status = convert_colours(job, reader, argc, argv, error);
+		status = convert_colours(job, reader, error);
 	else if (status == SPEC_OK && leaves_bands(job))
-		status = convert_representation(job, reader, argc, argv, error);
+		status = convert_representation(job, reader, error);
 	else if (status == SPEC_OK)
-		status = convert_bands(cli, job, reader, argc, argv, error);
+		status = convert_bands(cli, job, reader, error);
 	spec_reader_close(reader);
 	return status;
 }
@@ -538,12 +533,14 @@ main(int argc, char **argv)
 	cli_start(&cli, &program, argc, argv);
 	parse(&cli, &job, &error);
 	cli_progress_start(&progress, "lines", job.settings.progress, job.settings.quiet);
+	job.settings.argc = argc;
+	job.settings.argv = argv;
 	job.settings.show = cli_progress_show;
 	job.settings.show_state = &progress;
 
 	status = spec_curve_input_is_image(&job.from) || spec_kind_is_curve(job.input[0])
-			 ? convert_curves(&cli, &job, argc, argv, &error)
-			 : convert_image(&cli, &job, argc, argv, &error);
+			 ? convert_curves(&cli, &job, &error)
+			 : convert_image(&cli, &job, &error);
 	cli_progress_end(&progress);
 	cli_check(&cli, status, &error);
 	if (!job.settings.quiet && job.clamped > 0)

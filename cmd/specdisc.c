@@ -287,7 +287,7 @@ check_axes(const struct job *job, const struct spec_chart *chart, struct spec_er
 
 static enum spec_status
 draw_chart(struct job *job, const struct spec_disc *disc, const struct spec_grid *grid,
-	int argc, char **argv, struct spec_error *error)
+	struct spec_error *error)
 {
 	struct spec_disc_chart state = {
 		disc, job->setup.model, {grid->count, grid->wavelength_nm, NULL}};
@@ -305,14 +305,13 @@ draw_chart(struct job *job, const struct spec_disc *disc, const struct spec_grid
 	if (status == SPEC_OK)
 		status = check_axes(job, &chart, error);
 	if (status == SPEC_OK)
-		status = spec_chart_save(
-			&chart, argc, argv, &job->settings, &job->overflows, error);
+		status = spec_chart_save(&chart, &job->settings, &job->overflows, error);
 	return status;
 }
 
 /* --orders and --chart. */
 static enum spec_status
-show_disc(struct job *job, int argc, char **argv, struct spec_error *error)
+show_disc(struct job *job, struct spec_error *error)
 {
 	struct spec_grid grid = {0};
 	struct spec_disc disc;
@@ -322,21 +321,22 @@ show_disc(struct job *job, int argc, char **argv, struct spec_error *error)
 		status = spec_chart_options_grid(&job->chart, &grid, error);
 	if (status == SPEC_OK)
 		status = job->orders ? print_orders(job, &disc, &grid, error)
-				     : draw_chart(job, &disc, &grid, argc, argv, error);
+				     : draw_chart(job, &disc, &grid, error);
 	spec_grid_free(&grid);
 	return status;
 }
 
 static enum spec_status
-light_image(struct job *job, struct spec_reader *reader, long long *bare, int argc,
-	char **argv, struct spec_error *error)
+light_image(struct job *job, struct spec_reader *reader, long long *bare,
+	struct spec_error *error)
 {
 	struct spec_diffract diffract;
 	enum spec_status status = spec_diffract_plan(&diffract, spec_reader_image(reader),
 		&job->setup, spec_reader_name(reader), error);
 
-	if (status == SPEC_OK && job->settings.history)
-		status = spec_image_add_history(&diffract.relight.image, argc, argv, error);
+	if (status == SPEC_OK)
+		status = spec_settings_record(
+			&job->settings, &diffract.relight.image, error);
 	if (status == SPEC_OK)
 		status = spec_diffract_run(
 			&diffract, reader, &job->settings, &job->overflows, error);
@@ -346,8 +346,7 @@ light_image(struct job *job, struct spec_reader *reader, long long *bare, int ar
 }
 
 static enum spec_status
-disc_image(
-	struct job *job, long long *bare, int argc, char **argv, struct spec_error *error)
+disc_image(struct job *job, long long *bare, struct spec_error *error)
 {
 	struct spec_disc *disc =
 		spec_memory_new(job->discs.count, sizeof *disc, "discs", error);
@@ -370,7 +369,7 @@ disc_image(
 		status = spec_reader_open(
 			&reader, job->input ? job->input : "-", &job->settings, error);
 	if (status == SPEC_OK)
-		status = light_image(job, reader, bare, argc, argv, error);
+		status = light_image(job, reader, bare, error);
 	free(disc);
 	free(mask);
 	spec_reader_close(reader);
@@ -400,11 +399,13 @@ main(int argc, char **argv)
 	cli_start(&cli, &program, argc, argv);
 	parse(&cli, &job, &error);
 	cli_progress_start(&progress, "lines", job.settings.progress, job.settings.quiet);
+	job.settings.argc = argc;
+	job.settings.argv = argv;
 	job.settings.show = cli_progress_show;
 	job.settings.show_state = &progress;
 
-	status = job.orders || job.chart.axes ? show_disc(&job, argc, argv, &error)
-					      : disc_image(&job, &bare, argc, argv, &error);
+	status = job.orders || job.chart.axes ? show_disc(&job, &error)
+					      : disc_image(&job, &bare, &error);
 	cli_progress_end(&progress);
 	cli_check(&cli, status, &error);
 	warn(&cli, &job, bare);

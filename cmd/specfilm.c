@@ -186,7 +186,7 @@ print_spectrum(
 
 static enum spec_status
 draw_chart(struct job *job, const struct spec_chart *axes,
-	const struct spec_coating *coating, int argc, char **argv, struct spec_error *error)
+	const struct spec_coating *coating, struct spec_error *error)
 {
 	struct spec_film_chart film = {coating, job->polarisation, job->share};
 	struct spec_chart chart = *axes;
@@ -196,7 +196,7 @@ draw_chart(struct job *job, const struct spec_chart *axes,
 	chart.quantity = spec_film_share_name(job->share);
 	chart.evaluate = spec_film_chart_evaluate;
 	chart.state = &film;
-	return spec_chart_save(&chart, argc, argv, &job->settings, &job->overflows, error);
+	return spec_chart_save(&chart, &job->settings, &job->overflows, error);
 }
 
 static int
@@ -222,7 +222,7 @@ check_axes(const struct job *job, const struct spec_chart *chart, struct spec_er
 
 /* --spectrum and --chart. */
 static enum spec_status
-show_film(struct job *job, int argc, char **argv, struct spec_error *error)
+show_film(struct job *job, struct spec_error *error)
 {
 	struct spec_thickness any = {.kind = SPEC_THICKNESS_CONSTANT};
 	struct spec_chart chart = {0};
@@ -246,9 +246,8 @@ show_film(struct job *job, int argc, char **argv, struct spec_error *error)
 	chart.grid = &grid;
 	chart.variable[SPEC_FILM_THICKNESS].value = coating.thickness.top_nm;
 	if (status == SPEC_OK)
-		status = job->spectrum
-				 ? print_spectrum(job, &coating, error)
-				 : draw_chart(job, &chart, &coating, argc, argv, error);
+		status = job->spectrum ? print_spectrum(job, &coating, error)
+				       : draw_chart(job, &chart, &coating, error);
 	spec_coating_free(&coating);
 	spec_grid_free(&grid);
 	return status;
@@ -256,8 +255,7 @@ show_film(struct job *job, int argc, char **argv, struct spec_error *error)
 
 static enum spec_status
 fold_image(struct job *job, struct spec_reader *reader, const struct spec_coating *coating,
-	const struct spec_mask *mask, long long *bare, int argc, char **argv,
-	struct spec_error *error)
+	const struct spec_mask *mask, long long *bare, struct spec_error *error)
 {
 	struct spec_fold_setup setup = {coating, mask, job->films.count, job->polarisation,
 		job->keep, job->settings.half};
@@ -265,8 +263,8 @@ fold_image(struct job *job, struct spec_reader *reader, const struct spec_coatin
 	enum spec_status status = spec_fold_plan(
 		&fold, spec_reader_image(reader), &setup, spec_reader_name(reader), error);
 
-	if (status == SPEC_OK && job->settings.history)
-		status = spec_image_add_history(&fold.relight.image, argc, argv, error);
+	if (status == SPEC_OK)
+		status = spec_settings_record(&job->settings, &fold.relight.image, error);
 	if (status == SPEC_OK)
 		status = spec_fold_run(
 			&fold, reader, &job->settings, &job->overflows, error);
@@ -276,8 +274,7 @@ fold_image(struct job *job, struct spec_reader *reader, const struct spec_coatin
 }
 
 static enum spec_status
-film_image(
-	struct job *job, long long *bare, int argc, char **argv, struct spec_error *error)
+film_image(struct job *job, long long *bare, struct spec_error *error)
 {
 	struct spec_mask *mask =
 		spec_memory_new(job->films.count, sizeof *mask, "stacks", error);
@@ -308,7 +305,7 @@ film_image(
 			image->bands, &coating[i], error);
 	}
 	if (status == SPEC_OK)
-		status = fold_image(job, reader, coating, mask, bare, argc, argv, error);
+		status = fold_image(job, reader, coating, mask, bare, error);
 	for (size_t i = 0; coating && i < job->films.count; i++)
 		spec_coating_free(&coating[i]);
 	free(coating);
@@ -339,12 +336,13 @@ main(int argc, char **argv)
 	cli_start(&cli, &program, argc, argv);
 	parse(&cli, &job);
 	cli_progress_start(&progress, "lines", job.settings.progress, job.settings.quiet);
+	job.settings.argc = argc;
+	job.settings.argv = argv;
 	job.settings.show = cli_progress_show;
 	job.settings.show_state = &progress;
 
-	status = job.spectrum || job.chart.axes
-			 ? show_film(&job, argc, argv, &error)
-			 : film_image(&job, &bare, argc, argv, &error);
+	status = job.spectrum || job.chart.axes ? show_film(&job, &error)
+						: film_image(&job, &bare, &error);
 	cli_progress_end(&progress);
 	cli_check(&cli, status, &error);
 	warn(&cli, &job, bare);

@@ -120,8 +120,7 @@ parse(struct cli *cli, struct job *job)
 }
 
 static enum spec_status
-render_scene(struct job *job, const struct spec_scene *scene, int argc, char **argv,
-	struct spec_error *error)
+render_scene(struct job *job, const struct spec_scene *scene, struct spec_error *error)
 {
 	struct spec_grid grid = {0};
 	struct spec_render_setup setup = job->setup;
@@ -133,8 +132,8 @@ render_scene(struct job *job, const struct spec_scene *scene, int argc, char **a
 		setup.seed = scene->seed;
 	if (status == SPEC_OK)
 		status = spec_render_open(&render, scene, &setup, &job->settings, error);
-	if (status == SPEC_OK && job->settings.history)
-		status = spec_image_add_history(&render.image, argc, argv, error);
+	if (status == SPEC_OK)
+		status = spec_settings_record(&job->settings, &render.image, error);
 	if (status == SPEC_OK)
 		status = spec_render_run(&render, &job->settings, &job->overflows, error);
 	spec_render_close(&render);
@@ -160,9 +159,11 @@ main(int argc, char **argv)
 		cli_warn(&cli, "%s", scene.warning[i]);
 
 	cli_progress_start(&progress, "lines", job.settings.progress, job.settings.quiet);
+	job.settings.argc = argc;
+	job.settings.argv = argv;
 	job.settings.show = cli_progress_show;
 	job.settings.show_state = &progress;
-	status = render_scene(&job, &scene, argc, argv, &error);
+	status = render_scene(&job, &scene, &error);
 	cli_progress_end(&progress);
 	cli_check(&cli, status, &error);
 	if (!job.settings.quiet)

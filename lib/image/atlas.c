@@ -283,8 +283,7 @@ kernel(void *state, struct spec_stream_worker *worker, int line, struct spec_err
 enum spec_status
 spec_atlas_write(const struct spec_curve *curve, const char *const *name, size_t curves,
 	const struct spec_grid *grid, enum spec_extrapolate extrapolate,
-	const struct spec_settings *settings, int argc, char **argv,
-	struct spec_error *error)
+	const struct spec_settings *settings, struct spec_error *error)
 {
 	struct atlas atlas = {.lines = spec_patches_count(curve, curves)};
 	struct spec_stream stream = {.lines = (int)atlas.lines,
@@ -302,8 +301,8 @@ spec_atlas_write(const struct spec_curve *curve, const char *const *name, size_t
 	atlas.samples = grid->count;
 	if (status == SPEC_OK)
 		status = describe(&atlas, curve, name, curves, grid, error);
-	if (status == SPEC_OK && settings->history)
-		status = spec_image_add_history(&atlas.image, argc, argv, error);
+	if (status == SPEC_OK)
+		status = spec_settings_record(settings, &atlas.image, error);
 	if (status == SPEC_OK)
 		status = fill(&atlas, curve, curves, grid, extrapolate, error);
 	if (status == SPEC_OK)

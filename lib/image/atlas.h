@@ -32,14 +32,12 @@
  *                       component without .spd, .txt or .csv becomes the curve's
  *         grid          in equal steps, or null: SPEC_ATLAS_GRID
  *         extrapolate   what the curves are outside their data
- *         argc, argv    for the history, where the settings want one
  * Errors: SPEC_EUSAGE  two curves of one name, a grid of other steps, another format than
  *                      OpenEXR; SPEC_ERANGE  outside the data, beyond floats
  */
 enum spec_status spec_atlas_write(const struct spec_curve *curve, const char *const *name,
 	size_t curves, const struct spec_grid *grid, enum spec_extrapolate extrapolate,
-	const struct spec_settings *settings, int argc, char **argv,
-	struct spec_error *error);
+	const struct spec_settings *settings, struct spec_error *error);
 
 /*
  * The curve of that name from an atlas, all its columns, with its texts; values are those of

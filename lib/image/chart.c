@@ -240,9 +240,8 @@ kernel(void *state, struct spec_stream_worker *worker, int line, struct spec_err
 }
 
 enum spec_status
-spec_chart_save(const struct spec_chart *chart, int argc, char **argv,
-	const struct spec_settings *settings, unsigned long long *overflows,
-	struct spec_error *error)
+spec_chart_save(const struct spec_chart *chart, const struct spec_settings *settings,
+	unsigned long long *overflows, struct spec_error *error)
 {
 	struct spec_image image;
 	struct run run = {chart, &image};
@@ -250,8 +249,8 @@ spec_chart_save(const struct spec_chart *chart, int argc, char **argv,
 		.lines = chart->height, .lines_in = 1, .state = &run, .kernel = kernel};
 	enum spec_status status = make_image(chart, settings, &image, error);
 
-	if (status == SPEC_OK && settings->history)
-		status = spec_image_add_history(&image, argc, argv, error);
+	if (status == SPEC_OK)
+		status = spec_settings_record(settings, &image, error);
 	stream.scratch_bytes = image.bands * SPEC_CHART_RUN * sizeof(double);
 	if (status == SPEC_OK)
 		status = spec_image_save(&image, &stream, settings, overflows, error);

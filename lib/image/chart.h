@@ -74,11 +74,8 @@ enum spec_status spec_chart_options_grid(const struct spec_chart_options *option
 enum spec_status spec_chart_parse(
 	struct spec_chart *chart, const char *text, struct spec_error *error);
 
-/*
- * Makes the chart's image and writes it; argc and argv: the command, for its history.
- * Output and *overflows as spec_image_save's.
- */
-enum spec_status spec_chart_save(const struct spec_chart *chart, int argc, char **argv,
+/* Makes the chart's image and writes it; output and *overflows as spec_image_save's. */
+enum spec_status spec_chart_save(const struct spec_chart *chart,
 	const struct spec_settings *settings, unsigned long long *overflows,
 	struct spec_error *error);
 

@@ -113,7 +113,7 @@ copy_attributes(
 static enum spec_status
 write_chart(const struct spec_curve_output *output, const struct spec_curve *curve,
 	size_t curves, const struct spec_grid *grid, const struct spec_settings *settings,
-	int argc, char **argv, unsigned long long *overflows, struct spec_error *error)
+	unsigned long long *overflows, struct spec_error *error)
 {
 	struct spec_patches_setup patches = output->patches;
 	struct spec_grid own = {curve[0].wavelength_nm, curve[0].count};
@@ -128,8 +128,8 @@ write_chart(const struct spec_curve_output *output, const struct spec_curve *cur
 	status = spec_patches_image(&image, curve, curves, &patches, error);
 	if (status == SPEC_OK)
 		status = copy_attributes(output->attributes, &image, error);
-	if (status == SPEC_OK && settings->history)
-		status = spec_image_add_history(&image, argc, argv, error);
+	if (status == SPEC_OK)
+		status = spec_settings_record(settings, &image, error);
 	if (status == SPEC_OK)
 		status = spec_patches_write(
 			&image, curve, curves, &patches, settings, overflows, error);
@@ -140,17 +140,16 @@ write_chart(const struct spec_curve_output *output, const struct spec_curve *cur
 enum spec_status
 spec_curve_output_save(const struct spec_curve_output *output, enum spec_kind kind,
 	const struct spec_curve *curve, const char *const *name, size_t curves,
-	const struct spec_grid *grid, const struct spec_settings *settings, int argc,
-	char **argv, unsigned long long *overflows, struct spec_error *error)
+	const struct spec_grid *grid, const struct spec_settings *settings,
+	unsigned long long *overflows, struct spec_error *error)
 {
 	if (output->strip > 0)
 		return spec_strip_save(
 			settings->output, curve, output->scaling, output->strip, error);
 	if (output->atlas)
 		return spec_atlas_write(curve, name, curves, grid,
-			output->patches.extrapolate, settings, argc, argv, error);
+			output->patches.extrapolate, settings, error);
 	if (spec_kind_is_text(kind))
 		return spec_curve_output_text(kind, curve, settings->output, error);
-	return write_chart(
-		output, curve, curves, grid, settings, argc, argv, overflows, error);
+	return write_chart(output, curve, curves, grid, settings, overflows, error);
 }

@@ -55,12 +55,11 @@ enum spec_status spec_curve_output_text(enum spec_kind kind, const struct spec_c
  *                  of a strip and an atlas nothing
  *         name     of each curve, for an atlas
  *         grid     of the bands, or null: the first curve's, or the atlas's own
- *         argc, argv  for the history
  * Errors: those of spec_strip_save, spec_atlas_write, spec_spd_save, spec_patches_write.
  */
 enum spec_status spec_curve_output_save(const struct spec_curve_output *output,
 	enum spec_kind kind, const struct spec_curve *curve, const char *const *name,
 	size_t curves, const struct spec_grid *grid, const struct spec_settings *settings,
-	int argc, char **argv, unsigned long long *overflows, struct spec_error *error);
+	unsigned long long *overflows, struct spec_error *error);
 
 #endif

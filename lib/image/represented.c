@@ -473,8 +473,8 @@ kernel(void *state, struct spec_stream_worker *worker, int line, struct spec_err
 enum spec_status
 spec_represented_run(struct spec_reader *reader,
 	const struct spec_representation *representation,
-	const struct spec_settings *settings, int argc, char **argv,
-	unsigned long long *overflows, struct spec_error *error)
+	const struct spec_settings *settings, unsigned long long *overflows,
+	struct spec_error *error)
 {
 	const struct spec_image *input = spec_reader_image(reader);
 	int composite = representation->kind == SPEC_SPECTRUM_COMPOSITE;
@@ -500,8 +500,8 @@ spec_represented_run(struct spec_reader *reader,
 						  : input->wavelength_nm[input->bands - 1];
 		status = plan(&run, settings, spec_reader_name(reader), error);
 	}
-	if (status == SPEC_OK && settings->history)
-		status = spec_image_add_history(&run.image, argc, argv, error);
+	if (status == SPEC_OK)
+		status = spec_settings_record(settings, &run.image, error);
 	stream.scratch_bytes = status == SPEC_OK ? scratch_bytes(&run) : 0;
 	if (status == SPEC_OK)
 		status = spec_image_save(&run.image, &stream, settings, overflows, error);

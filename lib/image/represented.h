@@ -50,13 +50,13 @@ double *spec_represented_back(const struct spec_represented *represented,
 /*
  * Writes the image of a reader in another representation, as spec_image_save does:
  * representation's kind is SPEC_SPECTRUM_FOURIER or SPEC_SPECTRUM_COMPOSITE, its count,
- * coefficients as in represent.h. argc, argv: for the history, where the settings want one.
- * Errors: no bands, a bispectral image, more coefficients than bands, numbers out of range.
+ * coefficients as in represent.h. Errors: no bands, a bispectral image, more coefficients
+ * than bands, numbers out of range.
  */
 enum spec_status spec_represented_run(struct spec_reader *reader,
 	const struct spec_representation *representation,
-	const struct spec_settings *settings, int argc, char **argv,
-	unsigned long long *overflows, struct spec_error *error);
+	const struct spec_settings *settings, unsigned long long *overflows,
+	struct spec_error *error);
 
 /* The name of a coefficient's channel: a0, a1, b1, … after the prefix, such as "S0". */
 void spec_represented_name(char *text, size_t size, const char *prefix, size_t coefficient);

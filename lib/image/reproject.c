@@ -169,7 +169,7 @@ kernel(void *state, struct spec_stream_worker *worker, int line, struct spec_err
 /* The output's header: the input's, with another size. */
 static enum spec_status
 describe(struct reprojection *it, const char *name, const struct spec_settings *settings,
-	int argc, char **argv, struct spec_error *error)
+	struct spec_error *error)
 {
 	enum spec_status status = spec_image_copy(&it->image, it->input, error);
 
@@ -188,8 +188,8 @@ describe(struct reprojection *it, const char *name, const struct spec_settings *
 	}
 	spec_image_remove_attribute(&it->image, "envmap");
 	status = spec_image_index(&it->image, name, error);
-	if (status == SPEC_OK && settings->history)
-		status = spec_image_add_history(&it->image, argc, argv, error);
+	if (status == SPEC_OK)
+		status = spec_settings_record(settings, &it->image, error);
 	return status;
 }
 
@@ -217,8 +217,8 @@ reproject(struct reprojection *it, struct spec_reader *reader,
 
 enum spec_status
 spec_reproject_run(struct spec_reader *reader, enum spec_projection projection,
-	size_t height, const struct spec_settings *settings, int argc, char **argv,
-	unsigned long long *overflows, struct spec_error *error)
+	size_t height, const struct spec_settings *settings, unsigned long long *overflows,
+	struct spec_error *error)
 {
 	struct reprojection it = {.input = spec_reader_image(reader)};
 	const struct spec_window *data = &it.input->data;
@@ -233,7 +233,7 @@ spec_reproject_run(struct spec_reader *reader, enum spec_projection projection,
 	it.to = spec_panorama_like(&it.from, projection, height);
 	status = check(&it, name, settings, error);
 	if (status == SPEC_OK)
-		status = describe(&it, name, settings, argc, argv, error);
+		status = describe(&it, name, settings, error);
 	if (status == SPEC_OK)
 		status = reproject(&it, reader, settings, overflows, error);
 	spec_image_clear(&it.image);

@@ -14,14 +14,14 @@
  * height or, where height is 0, of like resolution. A pixel is the mean of 16 places in it,
  * at which the image is linear between the pixels' middles; what is beside the faces of a
  * cross is 0. Channels of whole numbers have those of the pixel nearest to the middle. All
- * samples are in memory. argc, argv: for the history, where the settings want one.
+ * samples are in memory.
  * Errors (the message names the file): another shape, polarised light, whose frames would turn
  * (SPEC_EUNSUPPORTED); more pixels or samples than the limits (SPEC_ERANGE); those of reading and
  * writing.
  */
 enum spec_status spec_reproject_run(struct spec_reader *reader,
 	enum spec_projection projection, size_t height,
-	const struct spec_settings *settings, int argc, char **argv,
-	unsigned long long *overflows, struct spec_error *error);
+	const struct spec_settings *settings, unsigned long long *overflows,
+	struct spec_error *error);
 
 #endif

@@ -119,8 +119,7 @@ run(struct separation *separation, struct spec_reader *reader,
 enum spec_status
 spec_separate_run(struct spec_develop *result, struct spec_reader *reader,
 	const struct spec_rgb *rgb, const struct spec_model *model,
-	const struct spec_settings *settings, int argc, char **argv,
-	struct spec_error *error)
+	const struct spec_settings *settings, struct spec_error *error)
 {
 	struct spec_image image = {0};
 	struct separation separation = {.input = spec_reader_image(reader),
@@ -133,8 +132,8 @@ spec_separate_run(struct spec_develop *result, struct spec_reader *reader,
 	separation.width = spec_window_width(&separation.input->data);
 	*result = (struct spec_develop){0};
 	status = describe(&separation, &image, error);
-	if (status == SPEC_OK && settings->history)
-		status = spec_image_add_history(&image, argc, argv, error);
+	if (status == SPEC_OK)
+		status = spec_settings_record(settings, &image, error);
 	if (status == SPEC_OK)
 		status = run(&separation, reader, settings, error);
 	result->nonfinite = separation.nonfinite;

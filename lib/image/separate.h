@@ -14,12 +14,10 @@
  * picture, [0, 1], encodes it by sRGB's transfer function and writes the model's components
  * to the settings' output, as spec_image_save does: channels of the names in models.h, such
  * as H, S, V, and the input's windows; it says nothing of wavelengths. A pixel of which a
- * component is not finite is NaN in all of them. argc, argv: for the history, where the
- * settings want one. result: as spec_develop_run's.
+ * component is not finite is NaN in all of them. result: as spec_develop_run's.
  */
 enum spec_status spec_separate_run(struct spec_develop *result, struct spec_reader *reader,
 	const struct spec_rgb *rgb, const struct spec_model *model,
-	const struct spec_settings *settings, int argc, char **argv,
-	struct spec_error *error);
+	const struct spec_settings *settings, struct spec_error *error);
 
 #endif

@@ -58,6 +58,15 @@ static const struct {
 enum { COMPRESSIONS = sizeof compressions / sizeof compressions[0] };
 
 enum spec_status
+spec_settings_record(const struct spec_settings *settings, struct spec_image *image,
+	struct spec_error *error)
+{
+	return settings->history ? spec_image_add_history(
+					   image, settings->argc, settings->argv, error)
+				 : SPEC_OK;
+}
+
+enum spec_status
 spec_settings_compression(const char *name, int *compression, struct spec_error *error)
 {
 	for (size_t i = 0; i < COMPRESSIONS; i++) {

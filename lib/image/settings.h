@@ -26,6 +26,9 @@ struct spec_settings {
 	int half;
 	int threads;
 	int history;
+	/* The command, for the history; the tool sets it. */
+	int argc;
+	char **argv;
 	int quiet;
 	int progress; /* 1: wanted even when stderr is no terminal */
 	int reread;   /* images are read more than once: a pipe becomes a temporary file */
@@ -43,6 +46,10 @@ void spec_settings_init(struct spec_settings *settings);
  */
 enum spec_status spec_settings_take(struct spec_settings *settings, const char *name,
 	const char *value, int *known, struct spec_error *error);
+
+/* Adds the command to an image's history, unless none is wanted. SPEC_ENOMEM. */
+enum spec_status spec_settings_record(const struct spec_settings *settings,
+	struct spec_image *image, struct spec_error *error);
 
 /* "zip", "none", … to OpenEXR's number; DWA is refused: OpenEXRCore 3.1 cannot do it. */
 enum spec_status spec_settings_compression(

@@ -108,8 +108,7 @@ run(struct vectors *vectors, struct spec_reader *reader,
 
 enum spec_status
 spec_vectors_run(struct spec_reader *reader, const char *name,
-	const struct spec_settings *settings, int argc, char **argv,
-	struct spec_error *error)
+	const struct spec_settings *settings, struct spec_error *error)
 {
 	struct vectors vectors = {.input = spec_reader_image(reader),
 		.encoded = strcmp(spec_reader_format(reader), "OpenEXR") != 0};
@@ -117,8 +116,8 @@ spec_vectors_run(struct spec_reader *reader, const char *name,
 
 	if (status == SPEC_OK)
 		status = describe(&vectors, name, error);
-	if (status == SPEC_OK && settings->history)
-		status = spec_image_add_history(&vectors.image, argc, argv, error);
+	if (status == SPEC_OK)
+		status = spec_settings_record(settings, &vectors.image, error);
 	if (status == SPEC_OK)
 		status = run(&vectors, reader, settings, error);
 	spec_image_clear(&vectors.image);
