@@ -304,9 +304,9 @@ on_a_broken_pipe() {
     "$TESTS/peak" peak.$height specconvert -j 2 --scale 2 - < <(cat $height.exr) | cat >/dev/null
     rm $height.exr
   done
-  read -r _ small code <peak.1000
+  read -r _ small code _ <peak.1000
   [ "$code" -eq 0 ]
-  read -r _ tall code <peak.4000
+  read -r _ tall code _ <peak.4000
   [ "$code" -eq 0 ]
   # 16 MB of pixels and 64 MB: within 10 % means that none of the difference was kept
   [ $((10 * tall)) -le $((11 * small)) ] || complain "$small KiB, at four times the height $tall KiB"
@@ -418,9 +418,9 @@ layers() {
     "$TESTS/peak" peak.$height specfilm -j 2 --stack "$soap" - < <(cat $height.exr) | cat >/dev/null
     rm $height.exr
   done
-  read -r _ small code <peak.1000
+  read -r _ small code _ <peak.1000
   [ "$code" -eq 0 ]
-  read -r _ tall code <peak.4000
+  read -r _ tall code _ <peak.4000
   [ "$code" -eq 0 ]
   [ $((10 * tall)) -le $((11 * small)) ] || complain "$small KiB, at four times the height $tall KiB"
 }
