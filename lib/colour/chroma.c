@@ -136,7 +136,7 @@ start(const double to[9], const double from[9], struct batch *restrict batch)
 		double at_grey = margin_of(reduce(from_cones, batch, i, 0));
 		double at_colour = margin_of(reduce(from_cones, batch, i, 1));
 		int between = (at_grey > 0) & (at_colour < 0);
-		double inside = (at_grey > 0) & !between ? 1 : 0;
+		double inside = ((at_grey > 0) & !between) ? 1 : 0;
 
 		batch->inside[i] = inside;
 		batch->outside[i] = between ? 1 : inside;

@@ -73,7 +73,7 @@ hue_of(double b, double a)
 	double hue = spec_vector_atan2(b, a), turned = hue + 360 * DEGREE;
 
 	hue = hue < 0 ? turned : hue;
-	return (a == 0) & (b == 0) ? 0 : hue;
+	return ((a == 0) & (b == 0)) ? 0 : hue;
 }
 
 SPEC_VECTORISED static void

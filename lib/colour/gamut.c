@@ -75,8 +75,8 @@ find_extremes(const double weight[3], const float *restrict r, const float *rest
 		high = high > blue ? high : blue;
 		low = low < blue ? low : blue;
 		part = y / (y - low);
-		most[i] = counts & (high > 1) ? high : 1;
-		chroma[i] = counts & (low < 0) ? part : 1;
+		most[i] = (counts & (high > 1)) ? high : 1;
+		chroma[i] = (counts & (low < 0)) ? part : 1;
 	}
 }
 

@@ -166,16 +166,16 @@ add_divergence(struct chunk *restrict chunk, size_t n)
 		double p = chunk->clean_a[i] / chunk->sum_a[i];
 		double q = chunk->clean_b[i] / chunk->sum_b[i];
 
-		ratio[i] = (p > 0) & (q > 0) ? p / q : 1;
+		ratio[i] = ((p > 0) & (q > 0)) ? p / q : 1;
 	}
 	for (size_t i = 0; i < n; i++)
 		ratio[i] = spec_vector_log(ratio[i]);
 	for (size_t i = 0; i < n; i++) {
 		double p = chunk->clean_a[i] / chunk->sum_a[i];
 		double q = chunk->clean_b[i] / chunk->sum_b[i];
-		double all = (p - q) * ratio[i], none = (p > 0) | (q > 0) ? INFINITY : 0;
+		double all = (p - q) * ratio[i], none = ((p > 0) | (q > 0)) ? INFINITY : 0;
 
-		chunk->value[SPEC_DETAIL_SID][i] += (p > 0) & (q > 0) ? all : none;
+		chunk->value[SPEC_DETAIL_SID][i] += ((p > 0) & (q > 0)) ? all : none;
 	}
 }
 

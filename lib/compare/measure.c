@@ -387,7 +387,7 @@ find_same(const struct chunk *restrict chunk, double *restrict same)
 	const double *u = chunk->xyz_b, *v = u + CHUNK, *w = v + CHUNK;
 
 	for (size_t i = 0; i < chunk->n; i++)
-		same[i] = (x[i] == u[i]) & (y[i] == v[i]) & (z[i] == w[i]) ? 1 : 0;
+		same[i] = ((x[i] == u[i]) & (y[i] == v[i]) & (z[i] == w[i])) ? 1 : 0;
 }
 
 /* Of the same XYZ no difference, whatever they are; a NaN could pass a tolerance. */

@@ -76,7 +76,7 @@ find_luminance(const double weight[3], const float *restrict r, const float *res
 		double y = red * r[i] + green * g[i] + blue * b[i];
 		float rounded = (float)y;
 
-		luminance[i] = (rounded > 0) & (rounded - rounded == 0) ? y : 0;
+		luminance[i] = ((rounded > 0) & (rounded - rounded == 0)) ? y : 0;
 	}
 }
 
