@@ -305,6 +305,10 @@ spec_atlas_write(const struct spec_curve *curve, const char *const *name, size_t
 		status = spec_settings_record(settings, &atlas.image, error);
 	if (status == SPEC_OK)
 		status = fill(&atlas, curve, curves, grid, extrapolate, error);
+	/* Few curves reach as far as it, which nobody asked for. */
+	if (status == SPEC_ERANGE && grid == &usual)
+		spec_error_prefix(error, "an atlas has the grid " SPEC_ATLAS_GRID
+					 " where --grid gives no other");
 	if (status == SPEC_OK)
 		status =
 			spec_image_save(&atlas.image, &stream, settings, &overflows, error);

@@ -11,7 +11,8 @@
  *   spec:atlas        "LO:HI:STEP" [nm]
  *   spec:atlas-lines  for each line of the image one of text, with tabs between: the curve's
  *                     name, the column's, quantity, unit, medium, title, source
- * Source: after S. Schiffner's (2008) textures of 128 texels from 324 nm on.
+ * Source: after the textures, 128 texels from 324 nm on, of D. Schiffner,
+ *         Wellenlängenbasiertes Beleuchtungsmodell im Shader (2008).
  */
 #ifndef SPEC_IMAGE_ATLAS_H
 #define SPEC_IMAGE_ATLAS_H

@@ -34,6 +34,7 @@ setup() {
   specconvert --atlas --extrapolate constant -o a.exr ramp.spd
   [ "$(layers --print 127,0 a.exr | xargs)" = 'A 0.75 B 0.75 G 0.75 R 0.75' ]
   fails_cleanly specconvert --atlas -o x.exr ramp.spd
+  [[ $stderr = 'specconvert: an atlas has the grid 324:835:1 where --grid gives no other: '* ]]
   [[ $stderr = *'400..700 nm, not 324 nm' ]]
   no_leftovers . a.exr glass.spd ramp.spd
 }
