@@ -1,12 +1,10 @@
 #include "place/own.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/memory.h"
-#include "base/text.h"
 #include "place/placed.h"
 #include "place/sunlight.h"
 #include "spectrum/lookup.h"
@@ -59,46 +57,24 @@ spec_own_adaptation(const char *text, const struct spec_image *image, const char
 	return status;
 }
 
-/* As sunlight.h names the light of such a place and time; to be freed. */
-static enum spec_status
-spell(const char *name, const struct spec_place *place, const struct spec_instant *instant,
-	struct spec_text *text, struct spec_error *error)
-{
-	char time[SPEC_INSTANT_WRITTEN];
-	enum spec_status status = spec_text_open(text, error);
-
-	if (status != SPEC_OK)
-		return status;
-	spec_instant_format(instant, 0, time);
-	fprintf(text->stream, NAME "@%.9f %.9f %.4fm,%s%s", place->latitude_deg,
-		place->longitude_deg, place->altitude_m, time, name + strlen(NAME));
-	fputc('\0', text->stream);
-	return spec_text_close(text, error);
-}
-
 enum spec_status
 spec_own_light(const char *name, const struct spec_image *image, const char *file,
 	struct spec_curve *curve, struct spec_error *error)
 {
 	struct spec_place place;
 	struct spec_instant instant;
-	struct spec_text text = {0};
+	struct spec_sunlight sunlight;
 	enum spec_status status =
 		spec_placed_of_image(image, file, &place, &instant, error);
 
 	*curve = (struct spec_curve){0};
 	if (status != SPEC_OK)
 		return status;
-	status = spell(name, &place, &instant, &text, error);
-	if (status == SPEC_OK) {
-		status = spec_sunlight_named(text.bytes, curve, error);
-		if (status != SPEC_OK)
-			spec_error_prefix(error, "%s", file);
-		/* It would point into what nobody wrote. */
-		if (error)
-			error->place[0] = '\0';
-	}
-	spec_text_free(&text);
+	status = spec_sunlight_at(&place, &instant, name + strlen(NAME), &sunlight, error);
+	if (status == SPEC_OK)
+		status = spec_sunlight_make(&sunlight, curve, error);
+	if (status != SPEC_OK)
+		spec_error_prefix(error, "%s", file);
 	for (size_t i = 0; i < curve->count && status == SPEC_OK; i++)
 		curve->value[i] /= M_PI;
 	if (status == SPEC_OK)

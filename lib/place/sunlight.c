@@ -67,9 +67,9 @@ is_named(const char *name)
 	return find_part(name, &part) > 0;
 }
 
-/* Reads "NAME=VALUE". */
-static enum spec_status
-take_option(const char *text, double value[OPTIONS], struct spec_error *error)
+/* The option that "NAME=VALUE" or "NAME" names, or OPTIONS. */
+static enum option
+find_option(const char *text)
 {
 	size_t length = strcspn(text, "=");
 	enum option i = 0;
@@ -77,6 +77,16 @@ take_option(const char *text, double value[OPTIONS], struct spec_error *error)
 	while (i < OPTIONS && (strlen(options[i].name) != length ||
 				      strncmp(options[i].name, text, length) != 0))
 		i++;
+	return i;
+}
+
+/* Reads "NAME=VALUE". */
+static enum spec_status
+take_option(const char *text, double value[OPTIONS], struct spec_error *error)
+{
+	size_t length = strcspn(text, "=");
+	enum option i = find_option(text);
+
 	if (i == OPTIONS)
 		return spec_error_set(error, SPEC_EUSAGE,
 			"'%.*s' is none of turbidity, aerosol, angstrom, ozone, water, "
@@ -85,12 +95,22 @@ take_option(const char *text, double value[OPTIONS], struct spec_error *error)
 	if (!isnan(value[i]))
 		return spec_error_set(
 			error, SPEC_EUSAGE, "'%s' is given twice", options[i].name);
+	if (!text[length])
+		return spec_error_set(
+			error, SPEC_EUSAGE, "'%s' needs a value: %s=NUMBER", text, text);
 	text += length + 1;
 	if (i == TILT || i == FACING)
 		return spec_number_parse_angle(text, options[i].lowest, options[i].highest,
 			options[i].what, &value[i], error);
 	return spec_number_parse(text, options[i].lowest, options[i].highest,
 		options[i].what, &value[i], error);
+}
+
+static void
+forget_options(double value[OPTIONS])
+{
+	for (int i = 0; i < OPTIONS; i++)
+		value[i] = NAN;
 }
 
 /* An option in place of a default. */
@@ -149,10 +169,10 @@ parse(char *text, struct spec_sunlight *sunlight, const char **at, struct spec_e
 	char *field;
 	enum spec_status status = SPEC_OK;
 
-	for (int i = 0; i < OPTIONS; i++)
-		value[i] = NAN;
+	forget_options(value);
 	*at = text;
-	while ((field = cut_last(text)) && strchr(field, '=') && status == SPEC_OK) {
+	while (status == SPEC_OK && (field = cut_last(text)) &&
+		(strchr(field, '=') || find_option(field) < OPTIONS)) {
 		*at = field;
 		status = take_option(field, value, error);
 	}
@@ -193,6 +213,23 @@ spec_sunlight_parse(
 		spec_error_point(error, name, start + (size_t)(at - text));
 	free(text);
 	return status;
+}
+
+enum spec_status
+spec_sunlight_at(const struct spec_place *place, const struct spec_instant *instant,
+	const char *given, struct spec_sunlight *sunlight, struct spec_error *error)
+{
+	double value[OPTIONS];
+	char *text = spec_memory_text(given, strlen(given), error), *field;
+	enum spec_status status = text ? SPEC_OK : SPEC_ENOMEM;
+
+	*sunlight = (struct spec_sunlight){
+		.part = SPEC_SUNLIGHT_BOTH, .place = *place, .instant = *instant};
+	forget_options(value);
+	while (status == SPEC_OK && (field = cut_last(text)))
+		status = take_option(field, value, error);
+	free(text);
+	return status == SPEC_OK ? settle_all(value, sunlight, error) : status;
 }
 
 /* ---- light ---- */

@@ -46,6 +46,14 @@ enum spec_status spec_sunlight_parse(
 	const char *name, struct spec_sunlight *sunlight, struct spec_error *error);
 
 /*
+ * The daylight of a place and an instant. given: these options, a comma before each, or "".
+ * SPEC_EUSAGE, SPEC_ERANGE: one is none, or its value.
+ */
+enum spec_status spec_sunlight_at(const struct spec_place *place,
+	const struct spec_instant *instant, const char *given,
+	struct spec_sunlight *sunlight, struct spec_error *error);
+
+/*
  * Its spectral irradiance [W m-2 nm-1] from 300 to 4000 nm, a curve of one column E.
  * Errors: SPEC_ERANGE  the sun is below the horizon (nothing here knows twilight), the place
  *                      is above 20 km, what sun.h and clearsky.h refuse

@@ -202,6 +202,8 @@ trouble() {
   run ! cmp -s lit murky
   trouble "no spectrum 'daylight'" specconvert --multiply daylight lit.exr
   trouble 'turbidity is outside 1..10' specconvert --illuminate daylight,turbidity=60 white.exr
+  trouble "white.exr: 'mist' is none of turbidity" specconvert --illuminate daylight,mist white.exr
+  trouble "white.exr: 'water' needs a value" spec2rgb --illuminant daylight,water white.exr -o a.png
 }
 
 @test "daylight where there is none" {

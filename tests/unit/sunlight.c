@@ -117,6 +117,9 @@ faults_are_shown(void **state)
 		{"sun@" NOON ",albedo=1.5", SPEC_ERANGE, "albedo", "albedo"},
 		{"sun@" NOON ",water=", SPEC_EUSAGE, "water", "water"},
 		{"sun@" NOON ",tilt=200", SPEC_ERANGE, "tilt", "tilt"},
+		{"sun@" NOON ",ozone,tilt=2", SPEC_EUSAGE, "'ozone' needs a value",
+			"ozone"},
+		{"sun@" NOON ",mist", SPEC_EUSAGE, "'mist' is no time", "mist"},
 		{"moon@" NOON, SPEC_EUSAGE, "does not begin with sun@", NULL},
 	};
 
@@ -138,6 +141,50 @@ faults_are_shown(void **state)
 			assert_non_null(caret);
 			assert_int_equal(strspn(caret + 1, " "), column + 2);
 		}
+	}
+}
+
+/* The same light by its name and by place, instant and options. */
+static void
+places_and_instants_have_daylight(void **state)
+{
+	static const struct {
+		const char *given;
+		enum spec_status status;
+		const char *message;
+	} cases[] = {
+		{"", SPEC_OK, ""},
+		{",turbidity=5,tilt=30deg, albedo=.5", SPEC_OK, ""},
+		{",mist", SPEC_EUSAGE, "'mist' is none of turbidity"},
+		{",", SPEC_EUSAGE, "'' is none of turbidity"},
+		{",water", SPEC_EUSAGE, "'water' needs a value"},
+		{",water=1,water=1", SPEC_EUSAGE, "'water' is given twice"},
+		{",water=30", SPEC_ERANGE, "column of water"},
+	};
+
+	(void)state;
+	for (size_t i = 0; i < COUNT(cases); i++) {
+		struct spec_sunlight named = parse("daylight@" NOON), given, wanted;
+		char name[128];
+
+		error = (struct spec_error){0};
+		assert_int_equal(spec_sunlight_at(&named.place, &named.instant,
+					 cases[i].given, &given, &error),
+			cases[i].status);
+		assert_contains(error.message, cases[i].message);
+		if (cases[i].status != SPEC_OK)
+			continue;
+		(void)snprintf(name, sizeof name, "daylight@" NOON "%s", cases[i].given);
+		wanted = parse(name);
+		assert_int_equal(given.part, wanted.part);
+		assert_int_equal(given.has_plane, wanted.has_plane);
+		near(given.plane.tilt_deg, wanted.plane.tilt_deg, 0, "tilt");
+		near(given.atmosphere.aerosol_depth, wanted.atmosphere.aerosol_depth, 0,
+			"depth");
+		near(given.atmosphere.ground_albedo, wanted.atmosphere.ground_albedo, 0,
+			"albedo");
+		near(given.atmosphere.pressure_hpa, wanted.atmosphere.pressure_hpa, 0,
+			"pressure");
 	}
 }
 
@@ -392,6 +439,7 @@ main(void)
 	const struct CMUnitTest tests[] = {
 		cmocka_unit_test(options_are_read),
 		cmocka_unit_test(faults_are_shown),
+		cmocka_unit_test(places_and_instants_have_daylight),
 		cmocka_unit_test(damaged_names_do_no_harm),
 		cmocka_unit_test(there_is_no_light_in_the_night),
 		cmocka_unit_test(thin_air_lifts_the_sun_less),
