@@ -25,11 +25,6 @@ struct envi_writer {
 	enum envi_interleave interleave;
 };
 
-struct envi_packer {
-	struct spec_packer base;
-	float *samples; /* of a chunk, in the file's order */
-};
-
 /* ---- names ---- */
 
 /* path without its last cut bytes, and suffix behind. */
@@ -198,28 +193,9 @@ open_writer(struct spec_writer *base, struct spec_error *error)
 }
 
 static enum spec_status
-open_packer(struct spec_packer *base, struct spec_error *error)
-{
-	struct envi_packer *packer = (struct envi_packer *)base;
-	const struct spec_image *image = base->writer->image;
-
-	packer->samples =
-		spec_memory_aligned(spec_window_width(&image->data) * image->bands *
-					    (size_t)base->writer->chunk_lines,
-			sizeof(float), "samples", error);
-	return packer->samples ? SPEC_OK : SPEC_ENOMEM;
-}
-
-static void
-close_packer(struct spec_packer *packer)
-{
-	free(((struct envi_packer *)packer)->samples);
-}
-
-static enum spec_status
 encode(struct spec_packer *base, int index, unsigned char *raw, struct spec_error *error)
 {
-	struct envi_packer *packer = (struct envi_packer *)base;
+	struct spec_sample_packer *packer = (struct spec_sample_packer *)base;
 	const struct envi_writer *writer = (const struct envi_writer *)base->writer;
 
 	(void)error;
@@ -280,14 +256,14 @@ const struct spec_writing_format spec_writing_envi = {
 	.name = "envi",
 	.suffixes = ".hdr .img .bsq .bil .bip",
 	.writer_bytes = sizeof(struct envi_writer),
-	.packer_bytes = sizeof(struct envi_packer),
+	.packer_bytes = sizeof(struct spec_sample_packer),
 	.makes_files = 1,
 	.own_samples = 1,
 	.open = open_writer,
-	.open_packer = open_packer,
+	.open_packer = spec_sample_packer_open,
 	.encode = encode,
 	.write = write_chunk,
 	.commit = commit,
-	.close_packer = close_packer,
+	.close_packer = spec_sample_packer_close,
 	.close = close_writer,
 };

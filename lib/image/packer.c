@@ -189,3 +189,22 @@ spec_packer_end(struct spec_packer *packer, int y, struct spec_error *error)
 	pthread_mutex_unlock(&writer->lock);
 	return status;
 }
+
+enum spec_status
+spec_sample_packer_open(struct spec_packer *base, struct spec_error *error)
+{
+	struct spec_sample_packer *packer = (struct spec_sample_packer *)base;
+	const struct spec_image *image = base->writer->image;
+
+	packer->samples =
+		spec_memory_aligned(spec_window_width(&image->data) * image->bands *
+					    (size_t)base->writer->chunk_lines,
+			sizeof(float), "samples", error);
+	return packer->samples ? SPEC_OK : SPEC_ENOMEM;
+}
+
+void
+spec_sample_packer_close(struct spec_packer *packer)
+{
+	free(((struct spec_sample_packer *)packer)->samples);
+}

@@ -24,11 +24,6 @@ struct folder_writer {
 	int made_folder;
 };
 
-struct tiff_packer {
-	struct spec_packer base;
-	float *samples; /* of a chunk, in the files' order */
-};
-
 /* What stands before the samples: of all bands, or of one. */
 static enum spec_status
 write_header(const struct spec_image *image, struct spec_output *output, int has_band,
@@ -63,25 +58,6 @@ write_header(const struct spec_image *image, struct spec_output *output, int has
 	return status;
 }
 
-static enum spec_status
-open_packer(struct spec_packer *base, struct spec_error *error)
-{
-	struct tiff_packer *packer = (struct tiff_packer *)base;
-	const struct spec_image *image = base->writer->image;
-
-	packer->samples =
-		spec_memory_aligned(spec_window_width(&image->data) * image->bands *
-					    (size_t)base->writer->chunk_lines,
-			sizeof(float), "samples", error);
-	return packer->samples ? SPEC_OK : SPEC_ENOMEM;
-}
-
-static void
-close_packer(struct spec_packer *packer)
-{
-	free(((struct tiff_packer *)packer)->samples);
-}
-
 /* ---- one file ---- */
 
 static enum spec_status
@@ -99,7 +75,7 @@ open_tiff(struct spec_writer *writer, struct spec_error *error)
 static enum spec_status
 encode(struct spec_packer *base, int index, unsigned char *raw, struct spec_error *error)
 {
-	struct tiff_packer *packer = (struct tiff_packer *)base;
+	struct spec_sample_packer *packer = (struct spec_sample_packer *)base;
 
 	(void)index;
 	(void)error;
@@ -112,13 +88,13 @@ const struct spec_writing_format spec_writing_tiff = {
 	.name = "tiff",
 	.suffixes = ".tif .tiff",
 	.writer_bytes = sizeof(struct spec_writer),
-	.packer_bytes = sizeof(struct tiff_packer),
+	.packer_bytes = sizeof(struct spec_sample_packer),
 	.own_samples = 1,
 	.open = open_tiff,
-	.open_packer = open_packer,
+	.open_packer = spec_sample_packer_open,
 	.encode = encode,
 	.write = spec_writing_append,
-	.close_packer = close_packer,
+	.close_packer = spec_sample_packer_close,
 };
 
 /* ---- a folder ---- */
@@ -222,7 +198,7 @@ static enum spec_status
 encode_bands(
 	struct spec_packer *base, int index, unsigned char *raw, struct spec_error *error)
 {
-	struct tiff_packer *packer = (struct tiff_packer *)base;
+	struct spec_sample_packer *packer = (struct spec_sample_packer *)base;
 
 	(void)error;
 	base->chunk = packer->samples;
@@ -280,14 +256,14 @@ const struct spec_writing_format spec_writing_folder = {
 	.name = "bands",
 	.suffixes = "",
 	.writer_bytes = sizeof(struct folder_writer),
-	.packer_bytes = sizeof(struct tiff_packer),
+	.packer_bytes = sizeof(struct spec_sample_packer),
 	.makes_files = 1,
 	.own_samples = 1,
 	.open = open_folder,
-	.open_packer = open_packer,
+	.open_packer = spec_sample_packer_open,
 	.encode = encode_bands,
 	.write = write_bands,
 	.commit = commit_folder,
-	.close_packer = close_packer,
+	.close_packer = spec_sample_packer_close,
 	.close = close_folder,
 };

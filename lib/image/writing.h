@@ -47,6 +47,17 @@ struct spec_packer {
 	float *row; /* where planes do not lie in the chunk */
 };
 
+/* That of formats with own_samples whose files hold the bands alone. */
+struct spec_sample_packer {
+	struct spec_packer base;
+	float *samples; /* of a chunk's bands, in the file's order */
+};
+
+/* Their open_packer and close_packer. */
+enum spec_status spec_sample_packer_open(
+	struct spec_packer *packer, struct spec_error *error);
+void spec_sample_packer_close(struct spec_packer *packer);
+
 /* Those that are null do nothing. */
 struct spec_writing_format {
 	const char *name;                  /* as --format has it */

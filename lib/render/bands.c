@@ -3,6 +3,7 @@
 #include <stdlib.h>
 
 #include "base/memory.h"
+#include "base/vector.h"
 #include "colour/upsample.h"
 #include "spectrum/mean.h"
 #include "spectrum/planck.h"
@@ -146,4 +147,12 @@ spec_bands_sample(const struct spec_bands_grid *bands, const struct spec_scene *
 	if (status != SPEC_OK)
 		spec_scene_prefix(scene, &spectrum->place, error);
 	return status;
+}
+
+SPEC_VECTORISED void
+spec_bands_add_product(float *restrict sum, const float *restrict a,
+	const float *restrict b, float weight, size_t count)
+{
+	for (size_t i = 0; i < count; i++)
+		sum[i] += weight * a[i] * b[i];
 }

@@ -50,4 +50,8 @@ enum spec_status spec_bands_sample(const struct spec_bands_grid *bands,
 	const struct spec_scene *scene, const struct spec_scene_spectrum *spectrum,
 	enum spec_bands_use use, double *value, struct spec_error *error);
 
+/* Adds weight times a times b to sum, band by band. */
+void spec_bands_add_product(float *restrict sum, const float *restrict a,
+	const float *restrict b, float weight, size_t count);
+
 #endif

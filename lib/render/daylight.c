@@ -4,7 +4,6 @@
 #include <stdlib.h>
 
 #include "base/memory.h"
-#include "base/vector.h"
 
 #define SHARE_ROWS 128  /* of directions, 1.4 degrees high each */
 #define BIN_STEP_NM 1.0 /* bins are averaged at points no farther apart, and at 4 or more */
@@ -80,14 +79,6 @@ share_bands(struct spec_daylight *daylight, const struct spec_bands_grid *bands,
 	return status;
 }
 
-SPEC_VECTORISED static void
-add_part(float *restrict radiance, const float *restrict factor, const float *restrict part,
-	float weight, size_t count)
-{
-	for (size_t i = 0; i < count; i++)
-		radiance[i] += weight * factor[i] * part[i];
-}
-
 static void
 add_share(const struct spec_daylight *daylight, const struct spec_daylight_share *share,
 	const double value[SPEC_DOME_BANDS], const float *factor, double weight,
@@ -96,7 +87,7 @@ add_share(const struct spec_daylight *daylight, const struct spec_daylight_share
 	for (size_t i = 0; i < SPEC_DOME_BANDS; i++) {
 		size_t first = share->first[i];
 
-		add_part(radiance + first, factor + first,
+		spec_bands_add_product(radiance + first, factor + first,
 			share->part + i * daylight->bands + first,
 			(float)(weight * value[i]), share->last[i] - first);
 	}
@@ -270,7 +261,7 @@ spec_daylight_add(const struct spec_daylight *daylight, struct spec_vector direc
 	double band[SPEC_DOME_BANDS];
 
 	if (local.z < 0) {
-		add_part(
+		spec_bands_add_product(
 			radiance, factor, daylight->ground, (float)weight, daylight->bands);
 		return;
 	}

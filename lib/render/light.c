@@ -404,14 +404,6 @@ spec_lights_emitted(const struct spec_lights *lights, const struct spec_hit *hit
 }
 
 SPEC_VECTORISED static void
-add_product(float *restrict radiance, const float *restrict factor,
-	const float *restrict value, float weight, size_t count)
-{
-	for (size_t i = 0; i < count; i++)
-		radiance[i] += weight * factor[i] * value[i];
-}
-
-SPEC_VECTORISED static void
 add_scaled(
 	float *restrict radiance, const float *restrict value, float weight, size_t count)
 {
@@ -443,7 +435,8 @@ spec_lights_add_surroundings(const struct spec_lights *lights, struct spec_vecto
 			factor ? factor : emitter->value,
 			factor ? weight * emitter->value[0] : weight, radiance);
 	} else if (factor) {
-		add_product(radiance, factor, emitter->value, (float)weight, lights->bands);
+		spec_bands_add_product(
+			radiance, factor, emitter->value, (float)weight, lights->bands);
 	} else {
 		add_scaled(radiance, emitter->value, (float)weight, lights->bands);
 	}

@@ -71,14 +71,6 @@ multiply(float *restrict to, const float *restrict by, float scale, size_t count
 }
 
 SPEC_VECTORISED static void
-add_two(float *restrict radiance, const float *restrict a, const float *restrict b,
-	float weight, size_t count)
-{
-	for (size_t i = 0; i < count; i++)
-		radiance[i] += weight * a[i] * b[i];
-}
-
-SPEC_VECTORISED static void
 add_three(float *restrict radiance, const float *restrict a, const float *restrict b,
 	const float *restrict c, float weight, size_t count)
 {
@@ -136,7 +128,7 @@ add_met(const struct spec_tracer *tracer, const struct spec_hit *hit,
 		spec_lights_emitted(tracer->lights, hit, last->point, direction, &other);
 
 	if (value)
-		add_two(radiance, room->throughput, value,
+		spec_bands_add_product(radiance, room->throughput, value,
 			(float)(density > 0 ? heuristic(density, other) : 1),
 			tracer->bands);
 }
