@@ -127,7 +127,7 @@ take_level(struct job *job, const char *name, const char *value, struct spec_err
 {
 	if (job->level_option && strcmp(job->level_option, name) != 0)
 		return spec_error_set(
-			error, SPEC_EUSAGE, "--step and --lod do not go together");
+			error, SPEC_EUSAGE, "--step and --lod exclude each other");
 	job->level_option = name;
 	return strcmp(name, "step") == 0 ? spec_level_parse_step(value, &job->level, error)
 					 : spec_level_parse(value, &job->level, error);

@@ -196,8 +196,7 @@ parse(struct cli *cli, struct job *job, struct spec_error *error)
 	cli_check(cli, spec_curve_input_settle(&job->from, error), error);
 	if (job->change.has_to && (spec_curve_input_is_image(&job->from) ||
 					  job->into.atlas || job->into.strip > 0))
-		cli_usage(cli,
-			"--to does not go with --from-plot, --row, --atlas and --strip");
+		cli_usage(cli, "--to excludes --from-plot, --row, --atlas and --strip");
 	job->into.patches.half = job->from.colours.half = job->settings.half;
 	job->into.patches.extrapolate = job->from.colours.extrapolate =
 		job->change.setup.extrapolate;

@@ -198,14 +198,15 @@ parse(struct cli *cli, struct job *job, struct spec_error *error)
 			job->almanac.asked >
 		1)
 		cli_usage(cli,
-			"--check, --probe, --patches, --sun and statistics exclude each other");
+			"--check, --probe, --patches, --sun and --statistics (or --bands) exclude "
+			"each other");
 	cli_check(cli, spec_almanac_settle(&job->almanac, job->inputs, error), error);
 	if (job->patches)
 		cli_check(
 			cli, spec_regions_parse(job->patches, &job->regions, error), error);
 	if (job->plotted && (job->check || job->statistics || job->almanac.asked))
-		cli_usage(
-			cli, "--plot has nothing to do with --check, --sun and statistics");
+		cli_usage(cli,
+			"--plot draws nothing of --check, --sun, --statistics and --bands");
 	if (job->plotted)
 		cli_check(cli, spec_plot_open(job->plotted, &job->plot, error), error);
 	if (job->observer || job->illuminant || job->plotted)

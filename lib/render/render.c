@@ -317,7 +317,8 @@ refuse_variance(const struct spec_render *render, struct spec_error *error)
 		return SPEC_OK;
 	if (setup->films > 0 || setup->discs)
 		return spec_error_set(error, SPEC_EUNSUPPORTED,
-			"variances of light layers are not kept: --variance and --defer do not go together");
+			"variances of light layers are not kept: --variance and --defer "
+			"exclude each other");
 	if (setup->samples < 2)
 		return spec_error_set(error, SPEC_EUSAGE,
 			"a variance needs 2 samples per pixel or more (--spp N)");

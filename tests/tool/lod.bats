@@ -361,7 +361,7 @@ coarse() {
   fails_cleanly spec2rgb --step 10 uneven.exr -o x.png
   [[ $stderr = *'equal distances'* ]] || complain "$stderr"
   fails_cleanly spec2rgb --step 20 --lod 3 a.exr -o x.png
-  [[ $stderr = *'--step and --lod do not go together' ]] || complain "$stderr"
+  [[ $stderr = *'--step and --lod exclude each other' ]] || complain "$stderr"
   fails_cleanly spec2rgb --error a.exr -o x.png
   [[ $stderr = *'--error is of --step or --lod' ]] || complain "$stderr"
   fails_cleanly spec2rgb --error --lod 3 -e auto a.exr -o x.png

@@ -114,7 +114,7 @@ trouble() {
   trouble "is no place" specinfo --sun "$golden" --time $noonish --toward 'over there'
   trouble "tells of no file" specinfo --sun "$golden" --time $noonish a.exr
   trouble "exclude each other" specinfo --sun "$golden" --time $noonish --check
-  trouble "nothing to do with" specinfo --sun "$golden" --time $noonish --plot a.png
+  trouble "--plot draws nothing of" specinfo --sun "$golden" --time $noonish --plot a.png
   trouble "no --time" specinfo --sun own --time $noonish a.exr
 }
 

@@ -102,7 +102,7 @@ END
   render --variance --spp 2 a.pbrt -o a.exr
   for defer in film disc film,disc; do
     fails_cleanly specrender --variance --defer $defer a.pbrt -o b.exr
-    [[ $stderr = *'--variance and --defer do not go together'* ]] || complain "$stderr"
+    [[ $stderr = *'--variance and --defer exclude each other'* ]] || complain "$stderr"
   done
   fails_cleanly specrender --variance=1 a.pbrt -o b.exr
   no_leftovers . a.pbrt a.exr
