@@ -16,6 +16,7 @@
 #include "colour/upsample.h"
 #include "image/fromrgb.h"
 #include "spectrum/mean.h"
+#include "spectrum/rebin.h"
 
 #define LINEAR "rgb:"
 #define ROUNDED 1e-3 /* by how much three digits of YUV may leave the range of RGB */
@@ -174,7 +175,7 @@ fill_smits(const double rgb[3], const struct spec_fromrgb_setup *setup,
 	edges_nm = spec_memory_new(curve->count + 1, sizeof *edges_nm, "edges", error);
 	status = edges_nm ? SPEC_OK : SPEC_ENOMEM;
 	if (status == SPEC_OK)
-		spec_fromrgb_edges(curve->wavelength_nm, curve->count, edges_nm);
+		spec_bins_halfway(curve->wavelength_nm, curve->count, edges_nm);
 	for (size_t i = 0; i < curve->count && status == SPEC_OK; i++)
 		status = mean_of_steps(&steps, weight, setup, light, edges_nm + i,
 			&curve->value[i], error);

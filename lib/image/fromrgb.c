@@ -7,20 +7,10 @@
 #include "base/memory.h"
 #include "colour/space.h"
 #include "image/save.h"
+#include "spectrum/rebin.h"
 
 /* How far chromaticities may be from Rec. 709's: files state them to three digits. */
 #define SAME_XY .001
-
-void
-spec_fromrgb_edges(const double *wavelength_nm, size_t count, double *edges_nm)
-{
-	const double *nm = wavelength_nm;
-
-	for (size_t i = 1; i < count; i++)
-		edges_nm[i] = .5 * (nm[i - 1] + nm[i]);
-	edges_nm[0] = count > 1 ? nm[0] - (edges_nm[1] - nm[0]) : nm[0] - .5;
-	edges_nm[count] = count > 1 ? 2 * nm[count - 1] - edges_nm[count - 1] : nm[0] + .5;
-}
 
 static enum spec_status
 find_colours(struct spec_fromrgb *fromrgb, const char *name, struct spec_error *error)
@@ -156,7 +146,7 @@ plan_bands(struct spec_fromrgb *fromrgb, const struct spec_fromrgb_setup *setup,
 			.edges_nm = edges_nm,
 			.extrapolate = setup->extrapolate};
 
-		spec_fromrgb_edges(grid->wavelength_nm, grid->count, edges_nm);
+		spec_bins_halfway(grid->wavelength_nm, grid->count, edges_nm);
 		status = spec_upsampling_plan(&fromrgb->upsampling, &bands, error);
 	}
 	if (status == SPEC_OK)

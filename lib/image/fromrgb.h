@@ -34,12 +34,6 @@ struct spec_fromrgb {
 };
 
 /*
- * The edges of a grid's bands: half-way between the wavelengths, and as far beyond the first
- * and the last; a sole band is 1 nm wide. edges_nm: room for count + 1.
- */
-void spec_fromrgb_edges(const double *wavelength_nm, size_t count, double *edges_nm);
-
-/*
  * Works out the output's header. The bands are means over bins (spec:bins): T of quantity
  * "reflectance", or "factor" where it is unbounded, or S0 of "radiance per nm". They are
  * HALF where R is, else FLOAT. R, G, B and chromaticities go, all else passes through.

@@ -21,10 +21,9 @@ struct spec_patches_setup {
 };
 
 /*
- * The header of a chart: reflective where the first curve's quantity is one of
- * reflectance or transmittance, else emissive. Error: no room for all curves, or
- * curves of both kinds, or of
- * neither light (or no quantity) nor reflectance nor transmittance.
+ * The header of a chart: reflective where the first curve's quantity is one of reflectance
+ * or transmittance, else emissive. Error: no room for all curves, or curves of both kinds,
+ * or of neither light (or no quantity) nor reflectance nor transmittance.
  */
 enum spec_status spec_patches_image(struct spec_image *image,
 	const struct spec_curve *curve, size_t curves,

@@ -1,35 +1,30 @@
 #include "render/bands.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/memory.h"
 #include "base/vector.h"
 #include "colour/upsample.h"
 #include "spectrum/mean.h"
 #include "spectrum/planck.h"
+#include "spectrum/rebin.h"
 
 enum spec_status
 spec_bands_make(struct spec_bands_grid *bands, const struct spec_grid *grid,
 	enum spec_extrapolate extrapolate, struct spec_error *error)
 {
-	const double *w = grid->wavelength_nm;
 	size_t count = grid->count;
-	double *edge;
 
 	*bands = (struct spec_bands_grid){.count = count, .extrapolate = extrapolate};
 	bands->wavelength_nm = spec_memory_new(count, sizeof(double), "bands", error);
-	bands->edges_nm = edge = spec_memory_new(count + 1, sizeof *edge, "bands", error);
-	if (!bands->wavelength_nm || !edge) {
+	bands->edges_nm = spec_memory_new(count + 1, sizeof(double), "bands", error);
+	if (!bands->wavelength_nm || !bands->edges_nm) {
 		spec_bands_free(bands);
 		return SPEC_ENOMEM;
 	}
-	for (size_t i = 0; i < count; i++)
-		bands->wavelength_nm[i] = w[i];
-	for (size_t i = 1; i < count; i++)
-		edge[i] = (w[i - 1] + w[i]) / 2;
-	edge[0] = count > 1 ? w[0] - (edge[1] - w[0]) : w[0] - 0.5;
-	edge[count] =
-		count > 1 ? w[count - 1] + (w[count - 1] - edge[count - 1]) : w[0] + 0.5;
+	memcpy(bands->wavelength_nm, grid->wavelength_nm, count * sizeof(double));
+	spec_bins_halfway(grid->wavelength_nm, count, bands->edges_nm);
 	return SPEC_OK;
 }
 
