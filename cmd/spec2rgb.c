@@ -143,7 +143,7 @@ take_white(struct job *job, const char *value, struct spec_error *error)
 	return SPEC_OK;
 }
 
-/* Those of the sums. */
+/* The options that say how bands are summed up. */
 static enum spec_status
 take_sums(struct job *job, const char *name, const char *value, int *known,
 	struct spec_error *error)
@@ -220,7 +220,7 @@ take_range(struct job *job, const char *value, struct spec_error *error)
 	return status;
 }
 
-/* Those of false colours. */
+/* The options that say what is shown in false colours, and on which scale. */
 static enum spec_status
 take_false(struct job *job, const char *name, const char *value, int *known,
 	struct spec_error *error)

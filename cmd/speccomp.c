@@ -137,8 +137,7 @@ check_options(const struct cli *cli, const struct job *job)
 	size_t from_stdin = 0;
 
 	if (job->chosen == 0)
-		cli_usage(cli,
-			"what is to be done with the images? (--op, --merge or --expr)");
+		cli_usage(cli, "one of --op, --merge and --expr is needed (try --help)");
 	if (job->inputs == 0)
 		cli_usage(cli, "images are needed (try --help)");
 	if ((job->mask_text != NULL) != (operation == SPEC_ARITHMETIC_LERP))
