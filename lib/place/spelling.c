@@ -156,5 +156,5 @@ spec_spelling_join(char spelt[SPEC_SPELLING_LONGEST])
 int
 spec_spelling_is_half(const char *spelt)
 {
-	return spelt[strspn(spelt, "0123456789.+-:")] == '\0';
+	return spelt[strspn(spelt, "0123456789.+-:d'\"NSEWnsew")] == '\0';
 }

@@ -25,7 +25,7 @@ enum spec_status spec_spelling_part(const char *text, char spelt[SPEC_SPELLING_L
  */
 int spec_spelling_join(char spelt[SPEC_SPELLING_LONGEST]);
 
-/* Whether it is a single number. */
+/* Whether it is a single number, perhaps with marks of degrees and a hemisphere. */
 int spec_spelling_is_half(const char *spelt);
 
 #endif

@@ -96,6 +96,8 @@ nonsense_is_refused(void **state)
 		{"91N 5E", "'91N 5E' is no place: Latitude 91d not in [-90d, 90d]"},
 		{"39.74", "'39.74' is half a place: a latitude and a longitude make one"},
 		{"1 2 3 4", "is no place"},
+		{"50.88N", "'50.88N' is half a place"},
+		{"E4d42'", "'E4d42'' is half a place"},
 		{"5E 6W", "is no place"},
 		{"5 N 6 N", "is no place"},
 		{"40:61 50", "is no place: Minutes 61"},
