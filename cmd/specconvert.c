@@ -200,7 +200,7 @@ parse(struct cli *cli, struct job *job, struct spec_error *error)
 	job->into.patches.half = job->from.colours.half = job->settings.half;
 	job->into.patches.extrapolate = job->from.colours.extrapolate =
 		job->change.setup.extrapolate;
-	job->from.colours.grid = job->change.setup.grid;
+	job->into.patches.grid = job->from.colours.grid = job->change.setup.grid;
 }
 
 /* The kind of the output: as --format or the suffix says, else as the input is. */
@@ -326,8 +326,7 @@ convert_curves(const struct cli *cli, struct job *job, struct spec_error *error)
 	job->into.attributes = &said;
 	if (status == SPEC_OK)
 		status = spec_curve_output_save(&job->into, job->kind, curve, job->input,
-			job->inputs, job->change.setup.grid, &job->settings,
-			&job->overflows, error);
+			job->inputs, &job->settings, &job->overflows, error);
 	for (size_t i = 0; curve && i < job->inputs; i++)
 		spec_curve_free(&curve[i]);
 	job->into.attributes = NULL;

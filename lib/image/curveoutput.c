@@ -112,15 +112,16 @@ copy_attributes(
 /* The patches' layout, where none was asked for: one row; on the first curve's own grid. */
 static enum spec_status
 write_chart(const struct spec_curve_output *output, const struct spec_curve *curve,
-	size_t curves, const struct spec_grid *grid, const struct spec_settings *settings,
-	unsigned long long *overflows, struct spec_error *error)
+	size_t curves, const struct spec_settings *settings, unsigned long long *overflows,
+	struct spec_error *error)
 {
 	struct spec_patches_setup patches = output->patches;
 	struct spec_grid own = {curve[0].wavelength_nm, curve[0].count};
 	struct spec_image image;
 	enum spec_status status;
 
-	patches.grid = grid ? grid : &own;
+	if (!patches.grid)
+		patches.grid = &own;
 	if (patches.columns == 0) {
 		patches.columns = (int)spec_patches_count(curve, curves);
 		patches.rows = 1;
@@ -140,16 +141,16 @@ write_chart(const struct spec_curve_output *output, const struct spec_curve *cur
 enum spec_status
 spec_curve_output_save(const struct spec_curve_output *output, enum spec_kind kind,
 	const struct spec_curve *curve, const char *const *name, size_t curves,
-	const struct spec_grid *grid, const struct spec_settings *settings,
-	unsigned long long *overflows, struct spec_error *error)
+	const struct spec_settings *settings, unsigned long long *overflows,
+	struct spec_error *error)
 {
 	if (output->strip > 0)
 		return spec_strip_save(
 			settings->output, curve, output->scaling, output->strip, error);
 	if (output->atlas)
-		return spec_atlas_write(curve, name, curves, grid,
+		return spec_atlas_write(curve, name, curves, output->patches.grid,
 			output->patches.extrapolate, settings, error);
 	if (spec_kind_is_text(kind))
 		return spec_curve_output_text(kind, curve, settings->output, error);
-	return write_chart(output, curve, curves, grid, settings, overflows, error);
+	return write_chart(output, curve, curves, settings, overflows, error);
 }

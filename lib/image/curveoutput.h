@@ -50,16 +50,16 @@ enum spec_status spec_curve_output_text(enum spec_kind kind, const struct spec_c
 
 /*
  * Writes curves to settings' output.
- * Given:  output   as above; patches' extrapolate and half are set
+ * Given:  output   as above; patches' extrapolate and half are set, and its grid, of the
+ *                  bands; null: the first curve's, or the atlas's own
  *         kind     SPEC_KIND_IMAGE: a chart, of one row where nothing else was asked for;
  *                  of a strip and an atlas nothing
  *         name     of each curve, for an atlas
- *         grid     of the bands, or null: the first curve's, or the atlas's own
  * Errors: those of spec_strip_save, spec_atlas_write, spec_spd_save, spec_patches_write.
  */
 enum spec_status spec_curve_output_save(const struct spec_curve_output *output,
 	enum spec_kind kind, const struct spec_curve *curve, const char *const *name,
-	size_t curves, const struct spec_grid *grid, const struct spec_settings *settings,
-	unsigned long long *overflows, struct spec_error *error);
+	size_t curves, const struct spec_settings *settings, unsigned long long *overflows,
+	struct spec_error *error);
 
 #endif
