@@ -151,6 +151,7 @@ spec_colourmap_hue(double share, unsigned char rgb[3])
 {
 	double angle = 2 * M_PI * fmin(fmax(share, 0), 1) + HUE_FIRST_DEG * M_PI / 180;
 	double a = HUE_CHROMA * cos(angle), b = HUE_CHROMA * sin(angle);
+	/* Ottosson's matrices: from OKLab to the roots of the cones' responses, to sRGB. */
 	double l = HUE_LIGHTNESS + .3963377774 * a + .2158037573 * b;
 	double m = HUE_LIGHTNESS - .1055613458 * a - .0638541728 * b;
 	double s = HUE_LIGHTNESS - .0894841775 * a - 1.2914855480 * b;

@@ -7,7 +7,24 @@
 #include <erfam.h>
 
 #define SUN_RADIUS_M 6.957e8 /* IAU 2015 resolution B3, nominal */
-#define STANDARD_HPA 1013.25 /* ISO 2533:1975 */
+
+/*
+ * ISO 2533:1975: at sea level; the lapse up to the tropopause and the exponent of pressure
+ * with it, g / (R lapse); from there on one temperature and the scale height R T / g.
+ */
+#define STANDARD_HPA 1013.25
+#define STANDARD_K 288.15
+#define LAPSE_K_PER_M .0065
+#define PRESSURE_EXPONENT 5.255876
+#define TROPOPAUSE_M 11000
+#define TROPOPAUSE_K 216.65
+#define TROPOPAUSE_HPA 226.3206
+#define SCALE_HEIGHT_M 6341.62
+
+/* Julian dates a day and a half, so any offset from UTC, around 1900 to 2100. */
+#define FIRST_JULIAN_DATE 2415019
+#define LAST_JULIAN_DATE 2488436
+
 #define LIGHT_TIMES 2        /* the sun's own motion, 13 m/s, makes .01" of the second */
 #define HORIZON_DEG (-.8333) /* below, nothing of the disc is seen, and R means nothing */
 
@@ -17,12 +34,14 @@ spec_air_standard(double altitude_m)
 	struct spec_air air;
 	double kelvin;
 
-	if (altitude_m <= 11000) {
-		kelvin = 288.15 - .0065 * altitude_m;
-		air.pressure_hpa = STANDARD_HPA * pow(kelvin / 288.15, 5.255876);
+	if (altitude_m <= TROPOPAUSE_M) {
+		kelvin = STANDARD_K - LAPSE_K_PER_M * altitude_m;
+		air.pressure_hpa =
+			STANDARD_HPA * pow(kelvin / STANDARD_K, PRESSURE_EXPONENT);
 	} else {
-		kelvin = 216.65;
-		air.pressure_hpa = 226.3206 * exp(-(altitude_m - 11000) / 6341.62);
+		kelvin = TROPOPAUSE_K;
+		air.pressure_hpa =
+			TROPOPAUSE_HPA * exp(-(altitude_m - TROPOPAUSE_M) / SCALE_HEIGHT_M);
 	}
 	air.temperature_c = kelvin - 273.15;
 	return air;
@@ -95,8 +114,8 @@ check(const struct spec_place *place, const struct spec_instant *instant,
 
 	if (status != SPEC_OK)
 		return status;
-	if (!(instant->utc1 + instant->utc2 > 2415019 &&
-		    instant->utc1 + instant->utc2 < 2488436))
+	if (!(instant->utc1 + instant->utc2 > FIRST_JULIAN_DATE &&
+		    instant->utc1 + instant->utc2 < LAST_JULIAN_DATE))
 		return spec_error_set(error, SPEC_ERANGE,
 			"the sun's place is known from 1900 to 2100 alone");
 	if (!(air->pressure_hpa >= 0 && air->pressure_hpa <= 2000))
