@@ -30,6 +30,15 @@ spec_atmosphere_default(void)
 	return atmosphere;
 }
 
+struct spec_atmosphere
+spec_atmosphere_at(double altitude_m)
+{
+	struct spec_atmosphere atmosphere = spec_atmosphere_default();
+
+	atmosphere.pressure_hpa = spec_air_standard(altitude_m).pressure_hpa;
+	return atmosphere;
+}
+
 /* lowest to highest, both included; NaN is not. */
 static enum spec_status
 check_range(const char *what, double value, double lowest, double highest,

@@ -56,6 +56,9 @@ struct spec_clearsky_plane {
  */
 struct spec_atmosphere spec_atmosphere_default(void);
 
+/* The same at an altitude [m], with the pressure that spec_air_standard has there. */
+struct spec_atmosphere spec_atmosphere_at(double altitude_m);
+
 /*
  * Sets the turbidity and the depth of aerosol with it, 0.04608 T - 0.04586 at 1 um and with
  * the exponent that is there at 500 nm.

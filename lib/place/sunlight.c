@@ -129,7 +129,7 @@ settle_all(const double value[OPTIONS], struct spec_sunlight *sunlight,
 	double turbidity;
 	enum spec_status status;
 
-	*air = spec_atmosphere_default();
+	*air = spec_atmosphere_at(sunlight->place.altitude_m);
 	turbidity = air->turbidity;
 	settle(value[ANGSTROM], &air->aerosol_exponent);
 	settle(value[TURBIDITY], &turbidity);
@@ -140,7 +140,6 @@ settle_all(const double value[OPTIONS], struct spec_sunlight *sunlight,
 	settle(value[OZONE], &air->ozone_cm);
 	settle(value[WATER], &air->water_cm);
 	settle(value[ALBEDO], &air->ground_albedo);
-	air->pressure_hpa = spec_air_standard(sunlight->place.altitude_m).pressure_hpa;
 	settle(value[PRESSURE], &air->pressure_hpa);
 	sunlight->has_plane = !isnan(value[TILT]) || !isnan(value[FACING]);
 	sunlight->plane = (struct spec_clearsky_plane){90, 180};
@@ -268,7 +267,7 @@ spec_sunlight_sun(const struct spec_sunlight *sunlight, struct spec_clearsky_sun
 	write_place(&sunlight->place, place, sizeof place);
 	spec_instant_format(&sunlight->instant, 0, instant);
 	return spec_error_set(error, SPEC_ERANGE,
-		"at %s on %s the sun is %.2f degrees below the horizon, and the light of "
+		"at %s on %s the sun's centre is %.2f degrees below the horizon, and the light of "
 		"twilight and night is not known",
 		place, instant, sun->zenith_deg - 90);
 }

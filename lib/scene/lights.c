@@ -9,7 +9,7 @@
 #include "scene/paths.h"
 #include "scene/spectra.h"
 
-#define DAYLIGHT -1 /* a sort of infinite light */
+#define DAYLIGHT (-1) /* a sort of infinite light */
 
 static const char absolute[] =
 	"it is photometric; give the light's spectrum absolute values, and a scale";

@@ -141,8 +141,7 @@ read_atmosphere(const struct spec_arguments *arguments, const struct spec_place 
 	double turbidity;
 	enum spec_status status;
 
-	*atmosphere = spec_atmosphere_default();
-	atmosphere->pressure_hpa = spec_air_standard(place->altitude_m).pressure_hpa;
+	*atmosphere = spec_atmosphere_at(place->altitude_m);
 	turbidity = atmosphere->turbidity;
 	status = spec_arguments_number(arguments, "turbidity", SPEC_TURBIDITY_LOWEST,
 		SPEC_TURBIDITY_HIGHEST, &turbidity);

@@ -40,6 +40,7 @@ function draw(line, least, greatest, k, inside, open) {
 }
 END {
   if (!lines || !(high > low)) exit 1
+  head += 16 * lines; height += 16 * lines # names of lines stand above, where they cover none
   w = width - left - right; h = height - head - foot
   if (!tick) tick = high - low > 900 ? 200 : high - low > 200 ? 50 : high - low > 40 ? 10 : 1
   printf "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%d\" height=\"%d\" font-family=\"sans-serif\" font-size=\"12\">\n", width, height
@@ -61,8 +62,7 @@ END {
   for (line = 1; line <= lines; line++) {
     if (top == "") draw(line, 0, most[line] > 0 ? most[line] : 1)
     else draw(line, bottom, top)
-    printf "<text x=\"%d\" y=\"%d\" fill=\"%s\">%s</text>\n", top == "" ? left + 8 : left + w / 2 - 24, \
-      top == "" ? head + 16 * line : head + h - 8 - 16 * (lines - line), colour[(line - 1) % 6 + 1], \
+    printf "<text x=\"%d\" y=\"%d\" fill=\"%s\">%s</text>\n", left + 8, 16 * line, colour[(line - 1) % 6 + 1], \
       top == "" ? of[line] " " named[line] ", to " sprintf("%.3g", most[line]) : named[line]
   }
   printf "<rect x=\"%d\" y=\"%d\" width=\"%d\" height=\"%d\" fill=\"none\" stroke=\"black\"/>\n</svg>\n", left, head, w, h

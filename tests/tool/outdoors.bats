@@ -138,7 +138,7 @@ as_good_as() {
   done
   scene a.pbrt '' "LightSource \"daylight\" $leuven \"string time\" \"2005-05-17T23:30:00+02:00\""
   fails_cleanly specrender a.pbrt -o b.exr
-  [[ $stderr = *"'time' of LightSource \"daylight\" is refused: at 50.88 N 4.7 E on 2005-05-17T23:30:00+02:00 the sun is 14."*' degrees below the horizon, and the light of twilight and night is not known' ]] || complain "$stderr"
+  [[ $stderr = *"'time' of LightSource \"daylight\" is refused: at 50.88 N 4.7 E on 2005-05-17T23:30:00+02:00 the sun's centre is 14."*' degrees below the horizon, and the light of twilight and night is not known' ]] || complain "$stderr"
   scene a.pbrt '' "LightSource \"daylight\" $leuven $noon" 'LightSource "infinite" "float L" 1'
   fails_cleanly specrender a.pbrt -o b.exr
   [[ $stderr = *'a second infinite light cannot be rendered yet'* ]] || complain "$stderr"

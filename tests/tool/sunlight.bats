@@ -62,7 +62,7 @@ END
 
 @test "the night has no such light, and faults are pointed at" {
   fails_cleanly specconvert 'daylight@50.88N 4.70E,2005-05-17T23:00+02:00'
-  [[ $stderr = *'the sun is 11.58 degrees below the horizon'* ]]
+  [[ $stderr = *"the sun's centre is 11.58 degrees below the horizon"* ]]
   fails_cleanly specinfo 'sun@50.88N 4.70E,2005-05-17T23:00+02:00'
   fails_pointing 41 specconvert "sky@$noon,albdo=.2"
   [[ $stderr = *"'albdo' is none of"* ]]

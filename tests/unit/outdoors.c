@@ -206,7 +206,7 @@ test_faults(void **state)
 			"WorldBegin " DAYLIGHT LEUVEN
 			"\"string time\" \"2005-05-17T00:00:00+02:00\"",
 			"t.pbrt:1:65: 'time' of LightSource \"daylight\" is refused: at 50.88 N "
-			"4.7 E on 2005-05-17T00:00:00+02:00 the sun is 16.6"},
+			"4.7 E on 2005-05-17T00:00:00+02:00 the sun's centre is 16.6"},
 		{SPEC_ERANGE,
 			"WorldBegin " DAYLIGHT "\"string place\" \"50.88N 4.70E 21km\" "
 			"\"string time\" \"2005-05-17T12:00Z\"",
