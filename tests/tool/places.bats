@@ -211,9 +211,9 @@ trouble() {
   trouble 'a.exr: does not say where it was taken' specconvert --reflectance-of daylight a.exr
   specconvert --place '50N 5E' a.exr -o b.exr
   trouble 'b.exr: does not say when it was taken' specconvert --reflectance-of daylight b.exr
-  trouble 'the sun is' specconvert --time 2005-05-17T23:00+02:00 --reflectance-of daylight b.exr
+  trouble "the sun's centre is" specconvert --time 2005-05-17T23:00+02:00 --reflectance-of daylight b.exr
   [[ $stderr = *'degrees below the horizon'* ]]
-  trouble 'the sun is' specconvert --place '80N 5E' --time 2005-12-17T12:00Z --reflectance-of daylight a.exr
+  trouble "the sun's centre is" specconvert --place '80N 5E' --time 2005-12-17T12:00Z --reflectance-of daylight a.exr
   no_leftovers . a.exr b.exr
 }
 

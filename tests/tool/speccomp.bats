@@ -68,7 +68,7 @@ END
 @test "what is missing, or one too many, is told" {
   ramps
   fails_cleanly speccomp a.exr b.exr -o x.exr
-  [[ $stderr = *'(--op, --merge or --expr)' ]] || complain "$stderr"
+  [[ $stderr = *'one of --op, --merge and --expr is needed (try --help)' ]] || complain "$stderr"
   fails_cleanly speccomp --op add -o x.exr
   [[ $stderr = *'images are needed'* ]] || complain "$stderr"
   for chosen in '--op add --merge' '--op add --op min' '--merge --expr a' '--expr a --expr a'; do
