@@ -1,5 +1,6 @@
 /* The plugin places.so; places.h is its interface. */
 #include <cstdio>
+#include <cstring>
 #include <exception>
 #include <new>
 #include <string>
@@ -52,6 +53,50 @@ guard(struct spec_error *error, F f)
 	}
 }
 
+struct angles {
+	double latitude_deg, longitude_deg;
+
+	/* Bit by bit, since a place may be read as NaN, which is refused elsewhere. */
+	bool
+	operator!=(const angles &other) const
+	{
+		return memcmp(this, &other, sizeof other) != 0;
+	}
+};
+
+/*
+ * What f returns. Where memory fails, streams swallow the exception, and GeographicLib goes
+ * on with what they hold: a number that is 0, a text that has lost its end. So only what
+ * comes out twice is believed.
+ */
+template <typename F>
+auto
+twice(F f) -> decltype(f())
+{
+	const auto once = f();
+
+	if (once != f())
+		throw std::bad_alloc();
+	return once;
+}
+
+std::string
+spelt(const struct spec_place &place, enum spec_place_form form)
+{
+	const GeoCoords at(place.latitude_deg, place.longitude_deg);
+
+	switch (form) {
+	case SPEC_PLACE_DMS:
+		return at.DMSRepresentation(1);
+	case SPEC_PLACE_UTM:
+		return at.UTMUPSRepresentation(0);
+	case SPEC_PLACE_MGRS:
+		return at.MGRSRepresentation(0);
+	default:
+		return at.GeoRepresentation(1);
+	}
+}
+
 double
 from_north(double azimuth_deg)
 {
@@ -65,10 +110,14 @@ static enum spec_status
 parse(const char *text, struct spec_place *place, struct spec_error *error)
 {
 	return guard(error, [&] {
-		const GeoCoords read{std::string(text)};
+		const auto read = twice([&] {
+			const GeoCoords at{std::string(text)};
 
-		place->latitude_deg = read.Latitude();
-		place->longitude_deg = Math::AngNormalize(read.Longitude());
+			return angles{at.Latitude(), at.Longitude()};
+		});
+
+		place->latitude_deg = read.latitude_deg;
+		place->longitude_deg = Math::AngNormalize(read.longitude_deg);
 	});
 }
 
@@ -77,23 +126,8 @@ format(const struct spec_place *place, enum spec_place_form form, char *written,
 	size_t room, struct spec_error *error)
 {
 	return guard(error, [&] {
-		const GeoCoords at(place->latitude_deg, place->longitude_deg);
-		std::string text;
+		const std::string text = twice([&] { return spelt(*place, form); });
 
-		switch (form) {
-		case SPEC_PLACE_DMS:
-			text = at.DMSRepresentation(1);
-			break;
-		case SPEC_PLACE_UTM:
-			text = at.UTMUPSRepresentation(0);
-			break;
-		case SPEC_PLACE_MGRS:
-			text = at.MGRSRepresentation(0);
-			break;
-		default:
-			text = at.GeoRepresentation(1);
-			break;
-		}
 		snprintf(written, room, "%s", text.c_str());
 	});
 }
