@@ -29,7 +29,7 @@ endif
 # those that only lint, bench and fuzz need.
 DEPS = g++ pkg-config libopenexr-dev libdeflate-dev libpng-dev liblcms2-dev libopenimageio-dev \
 	libembree-dev libcairo2-dev libfontconfig-dev libgeographiclib-dev liberfa-dev libcmocka-dev \
-	bats openexr mandoc jq
+	bats openexr openimageio-tools mandoc jq
 LINTDEPS = clang-format clang-tidy cppcheck shellcheck mandoc
 BENCHDEPS = openimageio-tools
 FUZZDEPS = clang libclang-rt-14-dev
