@@ -215,15 +215,8 @@ static enum spec_status
 stream(struct colouring *colouring, struct spec_reader *reader,
 	const struct spec_settings *settings, struct spec_error *error)
 {
-	const struct spec_image *image = spec_reader_image(reader);
 	const struct spec_view *view = colouring->view;
-	unsigned char *wanted = spec_memory_new(image->channels, 1, "channels", error);
-	struct spec_stream stream = {.reader = {reader},
-		.wanted = {wanted},
-		.readers = 1,
-		.first_line = image->data.y0,
-		.lines = (int)spec_window_height(&image->data),
-		.lines_in = 1,
+	struct spec_stream stream = {
 		.payload_bytes = sizeof(struct row) + colouring->row_bytes,
 		.scratch_bytes = view->terms * sizeof(float *) +
 				 spec_view_scratch(view, colouring->width) + 2 * ALIGNMENT +
@@ -231,12 +224,11 @@ stream(struct colouring *colouring, struct spec_reader *reader,
 		.state = colouring,
 		.kernel = kernel,
 		.deliver = deliver};
-	enum spec_status status = SPEC_ENOMEM;
+	unsigned char *wanted =
+		spec_stream_take(&stream, reader, view->channel, view->terms, error);
+	enum spec_status status =
+		wanted ? spec_stream_run(&stream, settings, error) : SPEC_ENOMEM;
 
-	for (size_t i = 0; wanted && i < view->terms; i++)
-		wanted[view->channel[i]] = 1;
-	if (wanted)
-		status = spec_stream_run(&stream, settings, error);
 	free(wanted);
 	return status;
 }

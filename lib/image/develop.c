@@ -112,27 +112,19 @@ static enum spec_status
 run(struct development *development, struct spec_reader *reader,
 	const struct spec_settings *settings, struct spec_error *error)
 {
-	const struct spec_image *image = spec_reader_image(reader);
 	const struct spec_rgb *rgb = development->rgb;
-	unsigned char *wanted = spec_memory_new(image->channels, 1, "channels", error);
-	struct spec_stream stream = {.reader = {reader},
-		.wanted = {wanted},
-		.readers = 1,
-		.first_line = image->data.y0,
-		.lines = (int)spec_window_height(&image->data),
-		.lines_in = 1,
+	struct spec_stream stream = {
 		.payload_bytes = sizeof(struct row) + development->row_bytes,
 		.scratch_bytes = rgb->terms * sizeof(float *) +
 				 3 * development->width * sizeof(float),
 		.state = development,
 		.kernel = kernel,
 		.deliver = deliver};
-	enum spec_status status = SPEC_ENOMEM;
+	unsigned char *wanted =
+		spec_stream_take(&stream, reader, rgb->channel, rgb->terms, error);
+	enum spec_status status =
+		wanted ? spec_stream_run(&stream, settings, error) : SPEC_ENOMEM;
 
-	for (size_t i = 0; wanted && i < rgb->terms; i++)
-		wanted[rgb->channel[i]] = 1;
-	if (wanted)
-		status = spec_stream_run(&stream, settings, error);
 	free(wanted);
 	return status;
 }

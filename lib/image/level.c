@@ -273,27 +273,20 @@ static enum spec_status
 compare(struct comparison *comparison, struct spec_reader *reader,
 	const struct spec_settings *settings, struct spec_error *error)
 {
-	const struct spec_image *image = comparison->image;
-	unsigned char *wanted = spec_memory_new(image->channels, 1, "channels", error);
-	struct spec_stream stream = {.reader = {reader},
-		.wanted = {wanted},
-		.readers = 1,
-		.first_line = image->data.y0,
-		.lines = (int)spec_window_height(&image->data),
-		.lines_in = 1,
+	const struct spec_rgb *seen = comparison->seen;
+	struct spec_stream stream = {
 		.payload_bytes = comparison->candidates * sizeof(struct sums),
 		.scratch_bytes =
 			comparison->width * (3 * sizeof(double) + 6 * sizeof(float)) +
-			comparison->seen->terms * sizeof(float *),
+			seen->terms * sizeof(float *),
 		.state = comparison,
 		.kernel = kernel,
 		.deliver = deliver};
-	enum spec_status status = SPEC_ENOMEM;
+	unsigned char *wanted =
+		spec_stream_take(&stream, reader, seen->channel, seen->terms, error);
+	enum spec_status status =
+		wanted ? spec_stream_run(&stream, settings, error) : SPEC_ENOMEM;
 
-	for (size_t i = 0; wanted && i < comparison->seen->terms; i++)
-		wanted[comparison->seen->channel[i]] = 1;
-	if (wanted)
-		status = spec_stream_run(&stream, settings, error);
 	free(wanted);
 	return status;
 }

@@ -4,7 +4,6 @@
 #include <stdatomic.h>
 #include <stdlib.h>
 
-#include "base/memory.h"
 #include "image/save.h"
 
 struct separation {
@@ -92,26 +91,17 @@ run(struct separation *separation, struct spec_reader *reader,
 	const struct spec_settings *settings, struct spec_error *error)
 {
 	const struct spec_rgb *rgb = separation->rgb;
-	unsigned char *wanted =
-		spec_memory_new(separation->input->channels, 1, "channels", error);
-	struct spec_stream stream = {.reader = {reader},
-		.wanted = {wanted},
-		.readers = 1,
-		.first_line = separation->input->data.y0,
-		.lines = (int)spec_window_height(&separation->input->data),
-		.lines_in = 1,
-		.scratch_bytes = rgb->terms * sizeof(float *) +
-				 3 * separation->width * sizeof(float),
+	struct spec_stream stream = {.scratch_bytes = rgb->terms * sizeof(float *) +
+						      3 * separation->width * sizeof(float),
 		.state = separation,
 		.kernel = kernel};
+	unsigned char *wanted =
+		spec_stream_take(&stream, reader, rgb->channel, rgb->terms, error);
 	unsigned long long overflows;
-	enum spec_status status = SPEC_ENOMEM;
+	enum spec_status status = wanted ? spec_image_save(separation->image, &stream,
+						   settings, &overflows, error)
+					 : SPEC_ENOMEM;
 
-	for (size_t i = 0; wanted && i < rgb->terms; i++)
-		wanted[rgb->channel[i]] = 1;
-	if (wanted)
-		status = spec_image_save(
-			separation->image, &stream, settings, &overflows, error);
 	free(wanted);
 	return status;
 }

@@ -297,3 +297,21 @@ spec_stream_run(struct spec_stream *stream, const struct spec_settings *settings
 		status = spec_reader_drain(stream->reader[i], error);
 	return status;
 }
+
+unsigned char *
+spec_stream_take(struct spec_stream *stream, struct spec_reader *reader,
+	const size_t *channel, size_t channels, struct spec_error *error)
+{
+	const struct spec_image *image = spec_reader_image(reader);
+	unsigned char *wanted = spec_memory_new(image->channels, 1, "channels", error);
+
+	stream->reader[0] = reader;
+	stream->wanted[0] = wanted;
+	stream->readers = 1;
+	stream->first_line = image->data.y0;
+	stream->lines = (int)spec_window_height(&image->data);
+	stream->lines_in = 1;
+	for (size_t i = 0; wanted && i < channels; i++)
+		wanted[channel[i]] = 1;
+	return wanted;
+}

@@ -52,4 +52,12 @@ struct spec_stream {
 enum spec_status spec_stream_run(struct spec_stream *stream,
 	const struct spec_settings *settings, struct spec_error *error);
 
+/*
+ * Lets a stream, whose other fields are set, take each line of a reader's image for one of the
+ * output, and of its channels those of a list (one may stand there twice). Returns what
+ * stream->wanted then refers to, to be freed after the run; null: no memory.
+ */
+unsigned char *spec_stream_take(struct spec_stream *stream, struct spec_reader *reader,
+	const size_t *channel, size_t channels, struct spec_error *error);
+
 #endif

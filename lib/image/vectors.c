@@ -4,7 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/memory.h"
 #include "colour/transfer.h"
 #include "image/save.h"
 
@@ -84,24 +83,13 @@ static enum spec_status
 run(struct vectors *vectors, struct spec_reader *reader,
 	const struct spec_settings *settings, struct spec_error *error)
 {
-	const struct spec_image *input = vectors->input;
-	unsigned char *wanted = spec_memory_new(input->channels, 1, "channels", error);
-	struct spec_stream stream = {.reader = {reader},
-		.wanted = {wanted},
-		.readers = 1,
-		.first_line = input->data.y0,
-		.lines = (int)spec_window_height(&input->data),
-		.lines_in = 1,
-		.state = vectors,
-		.kernel = kernel};
+	struct spec_stream stream = {.state = vectors, .kernel = kernel};
+	unsigned char *wanted = spec_stream_take(&stream, reader, vectors->from, 3, error);
 	unsigned long long overflows;
-	enum spec_status status = SPEC_ENOMEM;
+	enum spec_status status = wanted ? spec_image_save(&vectors->image, &stream,
+						   settings, &overflows, error)
+					 : SPEC_ENOMEM;
 
-	for (size_t i = 0; wanted && i < 3; i++)
-		wanted[vectors->from[i]] = 1;
-	if (wanted)
-		status = spec_image_save(
-			&vectors->image, &stream, settings, &overflows, error);
 	free(wanted);
 	return status;
 }
