@@ -1,6 +1,7 @@
 #include "place/clearsky.h"
 
 #include <math.h>
+#include <stddef.h>
 #include <string.h>
 
 #include "place/sun.h"
@@ -14,6 +15,19 @@
 #define SLANT_MASS 1.8       /* of light that the ground sends up, B 3-8 */
 #define ALBEDO_DECAY .095    /* of the aerosol's albedo over the wavelength, B 3-16 */
 #define LOWEST_COSINE .01745 /* of the sun's zenith angle under a tilted plane, 1 degree */
+
+/* Turbidity: that of the sky's models, dome.h. */
+const struct spec_atmosphere spec_atmosphere_lowest = {
+	.pressure_hpa = 10, .turbidity = 1, .aerosol_exponent = -1};
+const struct spec_atmosphere spec_atmosphere_highest = {.pressure_hpa = 1200,
+	.turbidity = 10,
+	.aerosol_depth = 10,
+	.aerosol_exponent = 4,
+	.aerosol_albedo = 1,
+	.aerosol_asymmetry = .99,
+	.ozone_cm = 2,
+	.water_cm = 20,
+	.ground_albedo = 1};
 
 struct spec_atmosphere
 spec_atmosphere_default(void)
@@ -55,7 +69,7 @@ spec_atmosphere_set_turbidity(
 	struct spec_atmosphere *atmosphere, double turbidity, struct spec_error *error)
 {
 	enum spec_status status = check_range("the turbidity", turbidity,
-		SPEC_TURBIDITY_LOWEST, SPEC_TURBIDITY_HIGHEST, error);
+		spec_atmosphere_lowest.turbidity, spec_atmosphere_highest.turbidity, error);
 
 	if (status != SPEC_OK)
 		return status;
@@ -65,29 +79,41 @@ spec_atmosphere_set_turbidity(
 	return SPEC_OK;
 }
 
+static double
+member(const struct spec_atmosphere *atmosphere, size_t offset)
+{
+	double value;
+
+	memcpy(&value, (const char *)atmosphere + offset, sizeof value);
+	return value;
+}
+
 static enum spec_status
 check_atmosphere(const struct spec_atmosphere *atmosphere, struct spec_error *error)
 {
-	const struct {
+	static const struct {
 		const char *what;
-		double value, lowest, highest;
-	} ranges[] = {
-		{"the pressure in hPa", atmosphere->pressure_hpa, 10, 1200},
-		{"the turbidity", atmosphere->turbidity, SPEC_TURBIDITY_LOWEST,
-			SPEC_TURBIDITY_HIGHEST},
-		{"the aerosol's optical depth", atmosphere->aerosol_depth, 0, 10},
-		{"the aerosol's exponent", atmosphere->aerosol_exponent, -1, 4},
-		{"the aerosol's albedo", atmosphere->aerosol_albedo, 0, 1},
-		{"the aerosol's asymmetry", atmosphere->aerosol_asymmetry, 0, .99},
-		{"ozone in atm-cm", atmosphere->ozone_cm, 0, 2},
-		{"water in cm", atmosphere->water_cm, 0, 20},
-		{"the ground's albedo", atmosphere->ground_albedo, 0, 1},
+		size_t offset;
+	} members[] = {
+		{"the pressure in hPa", offsetof(struct spec_atmosphere, pressure_hpa)},
+		{"the turbidity", offsetof(struct spec_atmosphere, turbidity)},
+		{"the aerosol's optical depth",
+			offsetof(struct spec_atmosphere, aerosol_depth)},
+		{"the aerosol's exponent",
+			offsetof(struct spec_atmosphere, aerosol_exponent)},
+		{"the aerosol's albedo", offsetof(struct spec_atmosphere, aerosol_albedo)},
+		{"the aerosol's asymmetry",
+			offsetof(struct spec_atmosphere, aerosol_asymmetry)},
+		{"ozone in atm-cm", offsetof(struct spec_atmosphere, ozone_cm)},
+		{"water in cm", offsetof(struct spec_atmosphere, water_cm)},
+		{"the ground's albedo", offsetof(struct spec_atmosphere, ground_albedo)},
 	};
 	enum spec_status status = SPEC_OK;
 
-	for (size_t i = 0; i < sizeof ranges / sizeof ranges[0] && status == SPEC_OK; i++)
-		status = check_range(ranges[i].what, ranges[i].value, ranges[i].lowest,
-			ranges[i].highest, error);
+	for (size_t i = 0; i < sizeof members / sizeof members[0] && status == SPEC_OK; i++)
+		status = check_range(members[i].what, member(atmosphere, members[i].offset),
+			member(&spec_atmosphere_lowest, members[i].offset),
+			member(&spec_atmosphere_highest, members[i].offset), error);
 	return status;
 }
 

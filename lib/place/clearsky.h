@@ -20,22 +20,21 @@
 #define SPEC_CLEARSKY_LOW_NM 300.
 #define SPEC_CLEARSKY_HIGH_NM 4000.
 
-/* Turbidity, of the air over that of its molecules: in the range of the sky's models. */
-#define SPEC_TURBIDITY_LOWEST 1.
-#define SPEC_TURBIDITY_HIGHEST 10.
-
 /* What is above the place, and the ground around it. */
 struct spec_atmosphere {
-	double pressure_hpa;      /* > 0, at the place */
-	double turbidity;         /* for the radiance of the sky (dome.h): 1 to 10 */
-	double aerosol_depth;     /* optical depth at 500 nm, >= 0 */
+	double pressure_hpa;      /* at the place */
+	double turbidity;         /* of the air over its molecules', for the sky (dome.h) */
+	double aerosol_depth;     /* optical depth at 500 nm */
 	double aerosol_exponent;  /* Angstrom's: the depth goes as wavelength^-exponent */
-	double aerosol_albedo;    /* of one scattering at 400 nm, 0 to 1 */
-	double aerosol_asymmetry; /* the mean cosine of the angle of scattering, 0 to < 1 */
-	double ozone_cm;          /* atm-cm, >= 0 */
-	double water_cm;          /* of precipitable water, >= 0 */
-	double ground_albedo;     /* 0 to 1 */
+	double aerosol_albedo;    /* of one scattering at 400 nm */
+	double aerosol_asymmetry; /* the mean cosine of the angle of scattering */
+	double ozone_cm;          /* atm-cm */
+	double water_cm;          /* of precipitable water */
+	double ground_albedo;
 };
+
+/* From what to what each of them may be, both included. */
+extern const struct spec_atmosphere spec_atmosphere_lowest, spec_atmosphere_highest;
 
 /* Where the sun is seen, refraction included, and how far it is. */
 struct spec_clearsky_sun {
@@ -64,7 +63,7 @@ struct spec_atmosphere spec_atmosphere_at(double altitude_m);
  * the exponent that is there at 500 nm.
  * Source: A. J. Preetham, P. Shirley, B. Smits: A Practical Analytic Model for Daylight.
  *         SIGGRAPH 1999, 91-100, appendix 1 (its exponent is 1.3).
- * Error:  SPEC_ERANGE  not SPEC_TURBIDITY_LOWEST to _HIGHEST
+ * Error:  SPEC_ERANGE  outside its range
  */
 enum spec_status spec_atmosphere_set_turbidity(
 	struct spec_atmosphere *atmosphere, double turbidity, struct spec_error *error);

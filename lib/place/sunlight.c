@@ -28,20 +28,23 @@ enum option {
 	OPTIONS
 };
 
+static const double tilts_deg[] = {0, 180}, azimuths_deg[] = {-360, 360};
+
+#define RANGE(member) &spec_atmosphere_lowest.member, &spec_atmosphere_highest.member
+
 static const struct {
 	const char *name, *what;
-	double lowest, highest;
+	const double *lowest, *highest;
 } options[OPTIONS] = {
-	[TURBIDITY] = {"turbidity", "turbidity", SPEC_TURBIDITY_LOWEST,
-		SPEC_TURBIDITY_HIGHEST},
-	[AEROSOL] = {"aerosol", "optical depth of aerosol", 0, 10},
-	[ANGSTROM] = {"angstrom", "exponent of aerosol", -1, 4},
-	[OZONE] = {"ozone", "column of ozone", 0, 2},
-	[WATER] = {"water", "column of water", 0, 20},
-	[PRESSURE] = {"pressure", "pressure", 10, 1200},
-	[ALBEDO] = {"albedo", "albedo", 0, 1},
-	[TILT] = {"tilt", "tilt", 0, 180},
-	[FACING] = {"facing", "azimuth", -360, 360},
+	[TURBIDITY] = {"turbidity", "turbidity", RANGE(turbidity)},
+	[AEROSOL] = {"aerosol", "optical depth of aerosol", RANGE(aerosol_depth)},
+	[ANGSTROM] = {"angstrom", "exponent of aerosol", RANGE(aerosol_exponent)},
+	[OZONE] = {"ozone", "column of ozone", RANGE(ozone_cm)},
+	[WATER] = {"water", "column of water", RANGE(water_cm)},
+	[PRESSURE] = {"pressure", "pressure", RANGE(pressure_hpa)},
+	[ALBEDO] = {"albedo", "albedo", RANGE(ground_albedo)},
+	[TILT] = {"tilt", "tilt", &tilts_deg[0], &tilts_deg[1]},
+	[FACING] = {"facing", "azimuth", &azimuths_deg[0], &azimuths_deg[1]},
 };
 
 /* The length of the part's name, "@" included; 0: none. */
@@ -100,9 +103,9 @@ take_option(const char *text, double value[OPTIONS], struct spec_error *error)
 			error, SPEC_EUSAGE, "'%s' needs a value: %s=NUMBER", text, text);
 	text += length + 1;
 	if (i == TILT || i == FACING)
-		return spec_number_parse_angle(text, options[i].lowest, options[i].highest,
-			options[i].what, &value[i], error);
-	return spec_number_parse(text, options[i].lowest, options[i].highest,
+		return spec_number_parse_angle(text, *options[i].lowest,
+			*options[i].highest, options[i].what, &value[i], error);
+	return spec_number_parse(text, *options[i].lowest, *options[i].highest,
 		options[i].what, &value[i], error);
 }
 

@@ -143,11 +143,13 @@ read_atmosphere(const struct spec_arguments *arguments, const struct spec_place 
 
 	*atmosphere = spec_atmosphere_at(place->altitude_m);
 	turbidity = atmosphere->turbidity;
-	status = spec_arguments_number(arguments, "turbidity", SPEC_TURBIDITY_LOWEST,
-		SPEC_TURBIDITY_HIGHEST, &turbidity);
+	status = spec_arguments_number(arguments, "turbidity",
+		spec_atmosphere_lowest.turbidity, spec_atmosphere_highest.turbidity,
+		&turbidity);
 	if (status == SPEC_OK)
-		status = spec_arguments_number(
-			arguments, "albedo", 0, 1, &atmosphere->ground_albedo);
+		status = spec_arguments_number(arguments, "albedo",
+			spec_atmosphere_lowest.ground_albedo,
+			spec_atmosphere_highest.ground_albedo, &atmosphere->ground_albedo);
 	if (status != SPEC_OK)
 		return status;
 	status = spec_atmosphere_set_turbidity(atmosphere, turbidity, &cause);
