@@ -283,6 +283,21 @@ edges_are_where_the_sun_says(void **state)
 	}
 }
 
+/* Before August 1961 UTC jumped ahead by .05 s: at this place noon is between. */
+static void
+noon_is_found_where_utc_skips_it(void **state)
+{
+	struct spec_place place = {10, -178.4329, 0};
+	struct spec_solar_day day = day_of(&place, "1961-08-01T12:00:00+12:00");
+	struct spec_solar solar;
+
+	(void)state;
+	assert_int_equal(
+		spec_solar_position(&place, &day.noon, NULL, &solar, NULL), SPEC_OK);
+	near(solar.hour_angle_deg, 0, .05 / 240, "noon");
+	near(day.noon_zenith_deg, solar.zenith_deg, 1e-5, "noon's zenith");
+}
+
 static void
 poles_have_days_and_nights_of_their_own(void **state)
 {
@@ -330,6 +345,7 @@ main(void)
 		cmocka_unit_test(sun_rises_and_sets_as_in_the_paper),
 		cmocka_unit_test(sun_rises_and_sets_as_in_almanacs),
 		cmocka_unit_test(edges_are_where_the_sun_says),
+		cmocka_unit_test(noon_is_found_where_utc_skips_it),
 		cmocka_unit_test(poles_have_days_and_nights_of_their_own),
 		cmocka_unit_test(antimeridian_is_one),
 	};
