@@ -36,11 +36,14 @@ spec_own_adaptation(const char *text, const struct spec_image *image, const char
 	const char *colon = strchr(text, ':');
 	char *name = spec_memory_text(
 		text, colon ? (size_t)(colon - text) : strlen(text), error);
+	struct spec_error cause = {0};
 	enum spec_status status = name ? SPEC_OK : SPEC_ENOMEM;
 
 	*light = (struct spec_curve){0};
 	if (status == SPEC_OK && !spec_own_light_is_named(name)) {
-		status = spec_adaptation_find(text, method, error);
+		status = spec_adaptation_find(text, method, &cause);
+		if (status != SPEC_OK)
+			spec_error_set(error, status, "%s, or " NAME, cause.message);
 	} else if (status == SPEC_OK && image->role == SPEC_ROLE_REFLECTIVE) {
 		status = spec_error_set(error, SPEC_EUSAGE,
 			"%s: " NAME

@@ -251,6 +251,8 @@ colour() {
   white 2005-05-17T12:00+02:00
   trouble 'white.exr: daylight adapts light' spec2rgb --adapt daylight white.exr -o a.png
   trouble "unknown adaptation 'best'" spec2rgb --adapt daylight:best lit.exr -o a.png
+  trouble "unknown adaptation 'best': expected none, vonkries, bradford, cat02 or cat16, or daylight" \
+    spec2rgb --adapt best lit.exr -o a.png
   specconvert --time 2005-05-17T23:00+02:00 lit.exr -o night.exr
   trouble 'degrees below the horizon' spec2rgb --adapt daylight night.exr -o a.png
   spectral nowhere.exr --grid 400:700:20
