@@ -584,6 +584,12 @@ read_bytes(struct envi_reader *reader, unsigned char *to, size_t size, long long
 	return status;
 }
 
+static int
+shares(const struct spec_reader *reader)
+{
+	return ((const struct envi_reader *)reader)->from->seekable;
+}
+
 /* Of a BSQ file the wanted bands alone, each with its lines; of others the lines. */
 static enum spec_status
 fetch(struct spec_decoder *decoder, struct spec_error *error)
@@ -766,6 +772,7 @@ const struct spec_reading_format spec_reading_envi = {
 	.recognises = recognises,
 	.open = open_reader,
 	.close = close_reader,
+	.shares = shares,
 	.fetch = fetch,
 	.decode = decode,
 };

@@ -347,6 +347,12 @@ close_decoder(struct spec_decoder *base)
 	free(decoder->out);
 }
 
+static int
+shares(const struct spec_reader *reader)
+{
+	return spec_reader_shares(((const struct expanded_reader *)reader)->inner);
+}
+
 static enum spec_status
 fetch(struct spec_decoder *base, struct spec_error *error)
 {
@@ -499,6 +505,7 @@ const struct spec_reading_format spec_reading_expanded = {
 	.close = close_reader,
 	.open_decoder = open_decoder,
 	.close_decoder = close_decoder,
+	.shares = shares,
 	.fetch = fetch,
 	.decode = decode,
 	.drain = drain,

@@ -192,9 +192,10 @@ exr_fetch(struct spec_decoder *base, struct spec_error *error)
 		for (int column = 0; column < across && status == SPEC_OK; column++)
 			status = fetch_chunk(decoder, y, column, &used, error);
 	}
+	if (reader->base.source.seekable)
+		return status;
 	reader->kept_valid = 0;
-	if (status == SPEC_OK && !reader->base.source.seekable &&
-		exr_chunk_start(reader, y1 - 1) + step > y1 &&
+	if (status == SPEC_OK && exr_chunk_start(reader, y1 - 1) + step > y1 &&
 		y1 < reader->base.image.data.y1)
 		status = keep_last(decoder, error);
 	return status;

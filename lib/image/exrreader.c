@@ -403,6 +403,7 @@ const struct spec_reading_format spec_reading_exr = {
 	.close = close_reader,
 	.open_decoder = exr_open_decoder,
 	.close_decoder = exr_close_decoder,
+	.shares = spec_reading_seekable,
 	.fetch = exr_fetch,
 	.decode = exr_decode,
 };

@@ -341,6 +341,7 @@ const struct spec_reading_format spec_reading_hsr = {
 	.recognises = recognises,
 	.open = open_reader,
 	.close = close_reader,
+	.shares = spec_reading_seekable,
 	.fetch = fetch,
 	.decode = decode,
 };

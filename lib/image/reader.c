@@ -63,6 +63,12 @@ spec_reading_planes(struct spec_decoder *decoder, struct spec_error *error)
 	return status;
 }
 
+int
+spec_reading_seekable(const struct spec_reader *reader)
+{
+	return reader->source.seekable;
+}
+
 enum spec_status
 spec_reading_check_size(const struct spec_reader *reader, long long width, long long height,
 	struct spec_error *error)
@@ -390,6 +396,12 @@ spec_decoder_close(struct spec_decoder *decoder)
 	free(decoder->converted.bytes);
 	free(decoder->row);
 	free(decoder);
+}
+
+int
+spec_reader_shares(const struct spec_reader *reader)
+{
+	return reader->format->shares && reader->format->shares(reader);
 }
 
 enum spec_status

@@ -72,6 +72,12 @@ int spec_reader_chunk_lines(const struct spec_reader *reader);
 /* Bytes of one line as it is stored uncompressed. */
 size_t spec_reader_line_bytes(const struct spec_reader *reader);
 
+/*
+ * Whether decoders may fetch side by side and in any order, as from a file in which one can
+ * go to any place. It stays so while the reader is open.
+ */
+int spec_reader_shares(const struct spec_reader *reader);
+
 /* One worker's place to decode a block of lines into. */
 struct spec_decoder;
 
@@ -81,9 +87,9 @@ enum spec_status spec_decoder_open(struct spec_decoder **decoder,
 void spec_decoder_close(struct spec_decoder *decoder);
 
 /*
- * Takes what lines y0..y1-1 (of the data window) need from the file. Calls must
- * not overlap in time, and go forward: y0 not before the last call's y1 - lines
- * that share a chunk with it may be asked for again by another decoder.
+ * Takes what lines y0..y1-1 (of the data window) need from the file. Where the reader does
+ * not share, calls must not overlap in time, and go forward: y0 not before the last call's
+ * y1 - lines that share a chunk with it may be asked for again by another decoder.
  */
 enum spec_status spec_decoder_fetch(
 	struct spec_decoder *decoder, int y0, int y1, struct spec_error *error);

@@ -65,6 +65,9 @@ struct spec_reading_format {
 		struct spec_decoder *decoder, struct spec_error *error);
 	void (*close_decoder)(struct spec_decoder *decoder);
 
+	/* As spec_reader_shares; null: it does not. */
+	int (*shares)(const struct spec_reader *reader);
+
 	/* As spec_decoder_fetch, for the lines decoder->y0 and decoder->lines say. */
 	enum spec_status (*fetch)(struct spec_decoder *decoder, struct spec_error *error);
 
@@ -81,6 +84,9 @@ extern const struct spec_reading_format spec_reading_exr, spec_reading_envi,
 /* Adds a file to a reader of pictures of one band each that is still to be opened. */
 enum spec_status spec_reading_add_picture(
 	struct spec_reader *reader, const char *path, struct spec_error *error);
+
+/* For shares: whether one can go to any place in the reader's source. */
+int spec_reading_seekable(const struct spec_reader *reader);
 
 /* Bytes of the beginning of a file that a format is recognised by. */
 #define SPEC_READING_FIRST_BYTES 1024

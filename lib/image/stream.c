@@ -18,8 +18,9 @@ struct run {
 	int threads;
 	int block_lines; /* of the output */
 	int blocks;
-	pthread_mutex_t take; /* held while a block is taken from the readers */
-	int next_block;       /* guarded by take */
+	pthread_mutex_t
+		take;   /* held while a block is taken from readers that do not share */
+	int next_block; /* guarded by take */
 	struct spec_turnstile turnstile;
 };
 
@@ -138,27 +139,40 @@ close_worker(struct spec_stream_worker *worker)
 	free(worker->scratch);
 }
 
-/* Takes the next block from the readers: *block, or -1 at the end. */
+/* Fetches a block of the readers that share, or of the others. */
 static enum spec_status
-take_block(struct run *run, struct spec_stream_worker *worker, int *block,
+fetch_block(struct run *run, struct spec_stream_worker *worker, int block, int shared,
 	struct spec_error *error)
 {
 	struct spec_stream *stream = run->stream;
 	enum spec_status status = SPEC_OK;
 	int first, end;
 
-	pthread_mutex_lock(&run->take);
-	*block = run->next_block < run->blocks ? run->next_block++ : -1;
-	if (*block >= 0) {
-		block_range(run, *block, &first, &end);
-		for (int i = 0; i < stream->readers && status == SPEC_OK; i++)
+	block_range(run, block, &first, &end);
+	for (int i = 0; i < stream->readers && status == SPEC_OK; i++)
+		if (spec_reader_shares(stream->reader[i]) == shared)
 			status = spec_decoder_fetch(worker->decoder[i],
 				stream->first_line + first * stream->lines_in,
 				stream->first_line + end * stream->lines_in, error);
-		if (status != SPEC_OK)
-			run->next_block = run->blocks; /* a pipe cannot go on after this */
-	}
+	return status;
+}
+
+/* Takes the next block from the readers: *block, or -1 at the end. */
+static enum spec_status
+take_block(struct run *run, struct spec_stream_worker *worker, int *block,
+	struct spec_error *error)
+{
+	enum spec_status status = SPEC_OK;
+
+	pthread_mutex_lock(&run->take);
+	*block = run->next_block < run->blocks ? run->next_block++ : -1;
+	if (*block >= 0)
+		status = fetch_block(run, worker, *block, 0, error);
+	if (status != SPEC_OK)
+		run->next_block = run->blocks; /* a pipe cannot go on after this */
 	pthread_mutex_unlock(&run->take);
+	if (*block >= 0 && status == SPEC_OK)
+		status = fetch_block(run, worker, *block, 1, error);
 	return status;
 }
 
