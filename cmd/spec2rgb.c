@@ -6,7 +6,6 @@
 
 #include "base/memory.h"
 #include "base/number.h"
-#include "base/output.h"
 #include "cli/options.h"
 #include "cli/progress.h"
 #include "colour/observer.h"
@@ -477,26 +476,13 @@ choose_kind(const struct job *job, struct spec_picture_kind *kind, struct spec_e
 		job->format ? wanted : job->settings.output, job->bits, kind, error);
 }
 
-/* Ends a picture that was begun: a file of it is there, or what was there before. */
-static enum spec_status
-end_picture(struct spec_picture *picture, struct spec_output *output,
-	enum spec_status status, struct spec_error *error)
-{
-	spec_picture_close(picture);
-	if (status == SPEC_OK)
-		return spec_output_commit(output, error);
-	spec_output_abandon(output);
-	return status;
-}
-
 static enum spec_status
 develop(struct job *job, struct spec_reader *reader, const struct spec_rgb *rgb,
 	struct spec_develop *result, struct spec_error *error)
 {
 	const struct spec_window *window = &spec_reader_image(reader)->data;
 	struct spec_picture_kind kind;
-	struct spec_picture *picture = NULL;
-	struct spec_output output;
+	struct spec_picture_file file;
 	enum spec_status status = choose_kind(job, &kind, error);
 
 	if (status == SPEC_OK && job->transfer && job->transfer != &spec_transfer_linear &&
@@ -511,15 +497,14 @@ develop(struct job *job, struct spec_reader *reader, const struct spec_rgb *rgb,
 	kind.account = job->account;
 	kind.luminance = job->luminance;
 	if (status == SPEC_OK)
-		status = spec_output_open(&output, job->settings.output, error);
+		status = spec_picture_file_open(&file, job->settings.output, &kind,
+			spec_window_width(window), spec_window_height(window), &job->space,
+			error);
 	if (status != SPEC_OK)
 		return status;
-	status = spec_picture_open(&picture, &kind, &output, spec_window_width(window),
-		spec_window_height(window), &job->space, error);
-	if (status == SPEC_OK)
-		status = spec_develop_run(result, reader, rgb, &job->look, picture,
-			kind.sample, &job->settings, error);
-	return end_picture(picture, &output, status, error);
+	status = spec_develop_run(result, reader, rgb, &job->look, file.picture,
+		kind.sample, &job->settings, error);
+	return spec_picture_file_end(&file, status, error);
 }
 
 static enum spec_status
@@ -528,23 +513,22 @@ paint(struct job *job, struct spec_reader *reader, struct spec_falsecolour *resu
 {
 	struct spec_falsecolour_setup *painted = &job->painted;
 	struct spec_picture_kind kind;
-	struct spec_picture *picture = NULL;
-	struct spec_output output;
+	struct spec_picture_file file;
 	size_t width, height;
 	enum spec_status status = choose_kind(job, &kind, error);
 
-	if (status == SPEC_OK)
-		status = spec_output_open(&output, job->settings.output, error);
-	if (status != SPEC_OK)
-		return status;
 	spec_falsecolour_size(painted, spec_reader_image(reader), &width, &height);
 	/* Components of vectors are no light. */
-	status = spec_picture_open(&picture, &kind, &output, width, height,
-		painted->view->numbers == 1 ? spec_space_find("srgb", NULL) : NULL, error);
 	if (status == SPEC_OK)
-		status = spec_falsecolour_run(result, painted, reader, picture, kind.sample,
-			&job->settings, error);
-	return end_picture(picture, &output, status, error);
+		status = spec_picture_file_open(&file, job->settings.output, &kind, width,
+			height,
+			painted->view->numbers == 1 ? spec_space_find("srgb", NULL) : NULL,
+			error);
+	if (status != SPEC_OK)
+		return status;
+	status = spec_falsecolour_run(
+		result, painted, reader, file.picture, kind.sample, &job->settings, error);
+	return spec_picture_file_end(&file, status, error);
 }
 
 /* What is the same in all pixels of a false colour. */

@@ -4,7 +4,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/output.h"
 #include "colour/colourmap.h"
 #include "colour/space.h"
 #include "compare/metrics.h"
@@ -112,25 +111,18 @@ static enum spec_status
 save(const char *path, const struct spec_canvas *canvas, struct spec_error *error)
 {
 	struct spec_picture_kind kind;
-	struct spec_picture *picture = NULL;
-	struct spec_output output;
+	struct spec_picture_file file;
 	enum spec_status status = spec_picture_choose(path, 8, &kind, error);
 
 	if (status == SPEC_OK)
-		status = spec_output_open(&output, path, error);
+		status = spec_picture_file_open(&file, path, &kind, canvas->width,
+			canvas->height, spec_space_find("srgb", NULL), error);
 	if (status != SPEC_OK)
 		return status;
-	status = spec_picture_open(&picture, &kind, &output, canvas->width, canvas->height,
-		spec_space_find("srgb", NULL), error);
+	status = spec_picture_write(file.picture, canvas->rgb, canvas->height, error);
 	if (status == SPEC_OK)
-		status = spec_picture_write(picture, canvas->rgb, canvas->height, error);
-	if (status == SPEC_OK)
-		status = spec_picture_finish(picture, error);
-	spec_picture_close(picture);
-	if (status == SPEC_OK)
-		return spec_output_commit(&output, error);
-	spec_output_abandon(&output);
-	return status;
+		status = spec_picture_finish(file.picture, error);
+	return spec_picture_file_end(&file, status, error);
 }
 
 static size_t

@@ -236,3 +236,28 @@ spec_picture_close(struct spec_picture *picture)
 	picture->encoder->close(picture);
 	free(picture);
 }
+
+enum spec_status
+spec_picture_file_open(struct spec_picture_file *file, const char *path,
+	const struct spec_picture_kind *kind, size_t width, size_t height,
+	const struct spec_space *space, struct spec_error *error)
+{
+	enum spec_status status = spec_output_open(&file->output, path, error);
+
+	if (status != SPEC_OK)
+		return status;
+	status = spec_picture_open(
+		&file->picture, kind, &file->output, width, height, space, error);
+	return status == SPEC_OK ? SPEC_OK : spec_picture_file_end(file, status, error);
+}
+
+enum spec_status
+spec_picture_file_end(
+	struct spec_picture_file *file, enum spec_status status, struct spec_error *error)
+{
+	spec_picture_close(file->picture);
+	if (status == SPEC_OK)
+		return spec_output_commit(&file->output, error);
+	spec_output_abandon(&file->output);
+	return status;
+}

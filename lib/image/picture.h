@@ -88,4 +88,22 @@ enum spec_status spec_picture_finish(
 /* At any time, finished or not; null is harmless. */
 void spec_picture_close(struct spec_picture *picture);
 
+/* A picture and the file that it becomes, which is there whole or not at all; not to be moved. */
+struct spec_picture_file {
+	struct spec_picture *picture;
+	struct spec_output output;
+};
+
+/* As spec_output_open and spec_picture_open; after an error there is nothing to be ended. */
+enum spec_status spec_picture_file_open(struct spec_picture_file *file, const char *path,
+	const struct spec_picture_kind *kind, size_t width, size_t height,
+	const struct spec_space *space, struct spec_error *error);
+
+/*
+ * Closes the picture, and commits the file if status, that of all which was done to it, is
+ * SPEC_OK, else abandons it. Returns status, or that of committing.
+ */
+enum spec_status spec_picture_file_end(
+	struct spec_picture_file *file, enum spec_status status, struct spec_error *error);
+
 #endif

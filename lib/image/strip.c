@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "base/output.h"
 #include "image/picture.h"
 
 #define CHANNELS 3
@@ -104,20 +103,21 @@ make_row(const struct spec_curve *curve, const double divisor[CHANNELS],
 }
 
 static enum spec_status
-write_rows(const struct spec_picture_kind *kind, struct spec_output *output,
+write_rows(const char *path, const struct spec_picture_kind *kind,
 	const struct spec_curve *curve, const void *row, int height,
 	struct spec_error *error)
 {
-	struct spec_picture *picture = NULL;
-	enum spec_status status = spec_picture_open(
-		&picture, kind, output, curve->count, (size_t)height, NULL, error);
+	struct spec_picture_file file;
+	enum spec_status status = spec_picture_file_open(
+		&file, path, kind, curve->count, (size_t)height, NULL, error);
 
+	if (status != SPEC_OK)
+		return status;
 	for (int y = 0; y < height && status == SPEC_OK; y++)
-		status = spec_picture_write(picture, row, 1, error);
+		status = spec_picture_write(file.picture, row, 1, error);
 	if (status == SPEC_OK)
-		status = spec_picture_finish(picture, error);
-	spec_picture_close(picture);
-	return status;
+		status = spec_picture_finish(file.picture, error);
+	return spec_picture_file_end(&file, status, error);
 }
 
 enum spec_status
@@ -125,7 +125,6 @@ spec_strip_save(const char *path, const struct spec_curve *curve,
 	enum spec_strip_scaling scaling, int height, struct spec_error *error)
 {
 	struct spec_picture_kind kind;
-	struct spec_output output;
 	double divisor[CHANNELS];
 	void *row = NULL;
 	enum spec_status status = spec_picture_choose(path, 0, &kind, error);
@@ -140,14 +139,8 @@ spec_strip_save(const char *path, const struct spec_curve *curve,
 		status = check_range(curve, divisor, error);
 	if (status == SPEC_OK) {
 		row = make_row(curve, divisor, kind.sample, error);
-		status = row ? spec_output_open(&output, path, error) : SPEC_ENOMEM;
-	}
-	if (status == SPEC_OK) {
-		status = write_rows(&kind, &output, curve, row, height, error);
-		if (status == SPEC_OK)
-			status = spec_output_commit(&output, error);
-		else
-			spec_output_abandon(&output);
+		status = row ? write_rows(path, &kind, curve, row, height, error)
+			     : SPEC_ENOMEM;
 	}
 	free(row);
 	return status;
