@@ -4,7 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/memory.h"
 #include "base/number.h"
 #include "cli/options.h"
 #include "cli/progress.h"
@@ -342,35 +341,36 @@ parse(struct cli *cli, struct job *job)
 /* What a picture's 1 is stays known where nothing else changes the light. */
 static enum spec_status
 tell(struct job *job, const struct spec_image *image, const struct spec_rgb_setup *setup,
-	const struct spec_rgb *rgb, struct spec_error *error)
+	const struct spec_rgb *rgb, const struct spec_level_report *report,
+	struct spec_error *error)
 {
 	double luminance = spec_account_luminance(setup, rgb);
-	enum spec_status status =
-		spec_account_text(image, setup, rgb, &job->account, error);
+	int all = job->level.kind == SPEC_LEVEL_ALL;
+	char bands[SPEC_LEVEL_TEXT];
 
+	if (!all)
+		spec_level_text(&job->level, report, bands);
 	if (isfinite(luminance) && job->look.metering == SPEC_METERING_NONE &&
 		job->look.gamut != SPEC_GAMUT_SCALE && !job->look.tone.kind)
 		job->luminance = luminance;
-	return status;
+	return spec_account_text(
+		image, setup, rgb, all ? NULL : bands, &job->account, error);
 }
 
-/*
- * The sums that the options ask for, in a space. What --verbose tells and the scale are of the
- * picture's own space, not of the one that differences are found in.
- */
+/* The sums of the bands that the options leave. */
 static enum spec_status
-plan(struct job *job, const struct spec_reader *reader, const struct spec_image *image,
-	const struct spec_space *space, struct spec_rgb *rgb, struct spec_error *error)
+plan(struct job *job, struct spec_reader *reader, const struct spec_image *image,
+	struct spec_rgb *rgb, struct spec_level_report *report, struct spec_error *error)
 {
 	const struct spec_image *whole = spec_reader_image(reader);
 	const char *name = spec_reader_name(reader);
 	struct spec_curve observer = {0}, illuminant = {0}, light = {0};
 	struct spec_rgb_setup setup = {.observer = &observer,
 		.illuminant = &illuminant,
-		.space = space,
+		.space = &job->space,
 		.exposure = job->exposure,
 		.rule = job->rule,
-		.scale = space == &job->space ? job->scale : SPEC_RGB_ONE};
+		.scale = job->scale};
 	enum spec_status status = spec_observer_load(job->observer, &observer, error);
 
 	if (status == SPEC_OK)
@@ -385,75 +385,15 @@ plan(struct job *job, const struct spec_reader *reader, const struct spec_image 
 		if (status != SPEC_OK)
 			spec_error_prefix(error, "%s", name);
 	}
-	if (status == SPEC_OK && job->verbose && space == &job->space)
-		status = tell(job, image, &setup, rgb, error);
+	if (status == SPEC_OK)
+		status = spec_level_apply(&job->level, reader, image, &setup, rgb, report,
+			&job->settings, error);
+	if (status == SPEC_OK && job->verbose)
+		status = tell(job, image, &setup, rgb, report, error);
 	spec_curve_free(&observer);
 	spec_curve_free(&illuminant);
 	spec_curve_free(&light);
 	return status;
-}
-
-/* Leaves bands out as the options ask for; *report: what --error prints. */
-static enum spec_status
-leave_out(struct job *job, struct spec_reader *reader, const struct spec_image *image,
-	struct spec_rgb *rgb, struct spec_level_report *report, struct spec_error *error)
-{
-	struct spec_rgb seen = {0};
-	enum spec_status status = SPEC_OK;
-
-	if (job->settings.reread)
-		status = plan(
-			job, reader, image, spec_space_find("xyz", error), &seen, error);
-	if (status == SPEC_OK)
-		status = spec_level_apply(&job->level, reader, image, &seen, rgb, report,
-			&job->settings, error);
-	spec_rgb_free(&seen);
-	return status;
-}
-
-/* Adds to what --verbose tells which bands were kept. */
-static enum spec_status
-tell_level(
-	struct job *job, const struct spec_level_report *report, struct spec_error *error)
-{
-	char text[SPEC_LEVEL_TEXT], *longer;
-	size_t size;
-
-	if (!job->verbose || job->level.kind == SPEC_LEVEL_ALL)
-		return SPEC_OK;
-	spec_level_text(&job->level, report, text);
-	size = strlen(job->account) + strlen(text) + sizeof "; ";
-	longer = spec_memory_new(size, 1, "bytes", error);
-	if (!longer)
-		return SPEC_ENOMEM;
-	snprintf(longer, size, "%s; %s", job->account, text);
-	free(job->account);
-	job->account = longer;
-	return SPEC_OK;
-}
-
-static void
-print_error(const struct spec_level_report *report)
-{
-	static const char *const name[SPEC_LEVEL_FORMULAS] = {
-		[SPEC_LEVEL_DE76] = "de76", [SPEC_LEVEL_DE2000] = "de2000"};
-
-	if (report->number >= 0)
-		fprintf(stderr, "level      %d of %d\n", report->number, report->finest);
-	fprintf(stderr, "bands      %zu of %zu\n", report->bands, report->of);
-	for (size_t i = 0; i < SPEC_LEVEL_FORMULAS; i++) {
-		const struct spec_level_difference *difference = &report->difference[i];
-		char rms[16], most[16];
-
-		snprintf(rms, sizeof rms, "%s-rms", name[i]);
-		snprintf(most, sizeof most, "%s-max", name[i]);
-		fprintf(stderr, "%-10s %.6g\n", name[i], difference->mean);
-		fprintf(stderr, "%-10s %.6g\n", rms, difference->rms);
-		fprintf(stderr, "%-10s %.6g at %d,%d\n", most, difference->most,
-			difference->x, difference->y);
-	}
-	if (report->nonfinite > 0)
-		fprintf(stderr, "nonfinite  %lld\n", report->nonfinite);
 }
 
 static void
@@ -592,12 +532,8 @@ show_colours(struct cli *cli, struct job *job, struct spec_reader *reader,
 	struct spec_rgb rgb = {0};
 	struct spec_develop seen = {0};
 	struct spec_level_report report = {0};
-	enum spec_status status = plan(job, reader, image, &job->space, &rgb, &error);
+	enum spec_status status = plan(job, reader, image, &rgb, &report, &error);
 
-	if (status == SPEC_OK)
-		status = leave_out(job, reader, image, &rgb, &report, &error);
-	if (status == SPEC_OK)
-		status = tell_level(job, &report, &error);
 	if (status != SPEC_OK)
 		cli_progress_end(progress);
 	cli_check(cli, status, &error);
@@ -613,7 +549,7 @@ show_colours(struct cli *cli, struct job *job, struct spec_reader *reader,
 	if (job->account)
 		fprintf(stderr, "%s: %s: %s\n", program.name, name, job->account);
 	if (job->error)
-		print_error(&report);
+		spec_level_print(&report, stderr);
 	spec_rgb_free(&rgb);
 }
 

@@ -40,7 +40,8 @@ tell_scale(FILE *stream, const struct spec_image *image, const struct spec_rgb_s
 
 enum spec_status
 spec_account_text(const struct spec_image *image, const struct spec_rgb_setup *setup,
-	const struct spec_rgb *rgb, char **result, struct spec_error *error)
+	const struct spec_rgb *rgb, const char *bands, char **result,
+	struct spec_error *error)
 {
 	struct spec_text text = {0};
 	enum spec_status status = spec_text_open(&text, error);
@@ -56,6 +57,8 @@ spec_account_text(const struct spec_image *image, const struct spec_rgb_setup *s
 			setup->illuminant ? title_of(setup->illuminant) : "equal energy");
 	tell_scale(text.stream, image, setup, rgb);
 	fprintf(text.stream, "; outside: %.2f %% of Y", 100 * rgb->outside);
+	if (bands)
+		fprintf(text.stream, "; %s", bands);
 	status = spec_text_close(&text, error);
 	if (status == SPEC_OK)
 		*result = spec_memory_text(text.bytes, text.size, error);

@@ -38,10 +38,10 @@ struct candidate {
 struct comparison {
 	const struct spec_level *level;
 	const struct spec_image *image;
-	const struct spec_rgb *seen;
+	struct spec_rgb seen; /* of all bands, in X, Y and Z */
 	struct candidate *candidate;
 	size_t candidates;
-	int bounded, wanted[SPEC_LEVEL_FORMULAS];
+	int bounded, compared, wanted[SPEC_LEVEL_FORMULAS];
 	size_t width, pixels;
 };
 
@@ -135,7 +135,7 @@ add_pixel(const struct comparison *comparison, struct sums *sums, const double f
 	double lab[3] = {0}, difference[SPEC_LEVEL_FORMULAS] = {0};
 
 	if (!same) {
-		spec_lab_from_xyz(xyz, comparison->seen->white, lab);
+		spec_lab_from_xyz(xyz, comparison->seen.white, lab);
 		difference[SPEC_LEVEL_DE76] = spec_difference_ab76(full_lab, lab);
 		if (comparison->wanted[SPEC_LEVEL_DE2000])
 			difference[SPEC_LEVEL_DE2000] =
@@ -204,11 +204,11 @@ kernel(void *state, struct spec_stream_worker *worker, int line, struct spec_err
 
 	(void)error;
 	memset(sums, 0, comparison->candidates * sizeof *sums);
-	sum_row(comparison, comparison->seen, worker, line, plane, full);
+	sum_row(comparison, &comparison->seen, worker, line, plane, full);
 	for (size_t x = 0; x < width; x++) {
 		double there[3] = {full[x], full[width + x], full[2 * width + x]};
 
-		spec_lab_from_xyz(there, comparison->seen->white, lab + 3 * x);
+		spec_lab_from_xyz(there, comparison->seen.white, lab + 3 * x);
 	}
 	for (size_t i = 0; i < comparison->candidates; i++) {
 		struct candidate *candidate = &comparison->candidate[i];
@@ -273,7 +273,7 @@ static enum spec_status
 compare(struct comparison *comparison, struct spec_reader *reader,
 	const struct spec_settings *settings, struct spec_error *error)
 {
-	const struct spec_rgb *seen = comparison->seen;
+	const struct spec_rgb *seen = &comparison->seen;
 	struct spec_stream stream = {
 		.payload_bytes = comparison->candidates * sizeof(struct sums),
 		.scratch_bytes =
@@ -351,7 +351,7 @@ choose_bands(struct candidate *candidate, const struct spec_level *level,
 
 /* The candidates: all levels where they are bounded, else the one that is asked for. */
 static enum spec_status
-make_candidates(struct comparison *comparison, int compared, struct spec_error *error)
+make_candidates(struct comparison *comparison, struct spec_error *error)
 {
 	const struct spec_level *level = comparison->level;
 	const struct spec_image *image = comparison->image;
@@ -369,11 +369,23 @@ make_candidates(struct comparison *comparison, int compared, struct spec_error *
 
 		status = choose_bands(candidate, level, image,
 			comparison->bounded ? (unsigned)i : number, error);
-		if (status == SPEC_OK && compared)
-			status = coarsen(
-				candidate, image, comparison->seen, &candidate->rgb, error);
+		if (status == SPEC_OK && comparison->compared)
+			status = coarsen(candidate, image, &comparison->seen,
+				&candidate->rgb, error);
 	}
 	return status;
+}
+
+/* The sums that are compared: whatever the picture's space and scale are, Y is 1 for white. */
+static enum spec_status
+plan_seen(struct comparison *comparison, const struct spec_rgb_setup *setup,
+	struct spec_error *error)
+{
+	struct spec_rgb_setup seen = *setup;
+
+	seen.space = spec_space_find("xyz", error);
+	seen.scale = SPEC_RGB_ONE;
+	return spec_rgb_plan(&comparison->seen, comparison->image, &seen, error);
 }
 
 static enum spec_status
@@ -384,10 +396,11 @@ apply(struct comparison *comparison, struct spec_reader *reader, struct spec_rgb
 	const struct spec_level *level = comparison->level;
 	struct candidate *chosen;
 	struct spec_rgb fewer;
-	int compared = comparison->bounded || level->measured;
-	enum spec_status status = make_candidates(comparison, compared, error);
+	enum spec_status status = make_candidates(comparison, error);
 
-	if (status == SPEC_OK && compared)
+	if (status == SPEC_EUSAGE) /* of the step */
+		spec_error_prefix(error, "%s", spec_reader_name(reader));
+	if (status == SPEC_OK && comparison->compared)
 		status = compare(comparison, reader, settings, error);
 	if (status != SPEC_OK)
 		return status;
@@ -408,15 +421,14 @@ apply(struct comparison *comparison, struct spec_reader *reader, struct spec_rgb
 
 enum spec_status
 spec_level_apply(const struct spec_level *level, struct spec_reader *reader,
-	const struct spec_image *image, const struct spec_rgb *seen, struct spec_rgb *rgb,
-	struct spec_level_report *report, const struct spec_settings *settings,
-	struct spec_error *error)
+	const struct spec_image *image, const struct spec_rgb_setup *setup,
+	struct spec_rgb *rgb, struct spec_level_report *report,
+	const struct spec_settings *settings, struct spec_error *error)
 {
 	struct comparison comparison = {.level = level,
 		.image = image,
-		.seen = seen,
 		.bounded = level->kind == SPEC_LEVEL_BOUNDED};
-	enum spec_status status;
+	enum spec_status status = SPEC_OK;
 
 	if (level->kind == SPEC_LEVEL_ALL)
 		return SPEC_OK;
@@ -424,14 +436,19 @@ spec_level_apply(const struct spec_level *level, struct spec_reader *reader,
 	comparison.pixels = comparison.width * spec_window_height(&comparison.image->data);
 	comparison.wanted[SPEC_LEVEL_DE2000] =
 		level->measured || level->formula == SPEC_LEVEL_DE2000;
-	status = apply(&comparison, reader, rgb, report, settings, error);
-	if (status != SPEC_OK && level->kind == SPEC_LEVEL_STEP && status == SPEC_EUSAGE)
+	comparison.compared = comparison.bounded || level->measured;
+	if (comparison.compared)
+		status = plan_seen(&comparison, setup, error);
+	if (status != SPEC_OK)
 		spec_error_prefix(error, "%s", spec_reader_name(reader));
+	else
+		status = apply(&comparison, reader, rgb, report, settings, error);
 	for (size_t i = 0; comparison.candidate && i < comparison.candidates; i++) {
 		free(comparison.candidate[i].kept);
 		spec_rgb_free(&comparison.candidate[i].rgb);
 	}
 	free(comparison.candidate);
+	spec_rgb_free(&comparison.seen);
 	return status;
 }
 
@@ -447,4 +464,28 @@ spec_level_text(const struct spec_level *level, const struct spec_level_report *
 		snprintf(text, SPEC_LEVEL_TEXT,
 			"%zu of %zu bands, level %d, straight lines between them",
 			report->bands, report->of, report->number);
+}
+
+void
+spec_level_print(const struct spec_level_report *report, FILE *stream)
+{
+	static const char *const name[SPEC_LEVEL_FORMULAS] = {
+		[SPEC_LEVEL_DE76] = "de76", [SPEC_LEVEL_DE2000] = "de2000"};
+
+	if (report->number >= 0)
+		fprintf(stream, "level      %d of %d\n", report->number, report->finest);
+	fprintf(stream, "bands      %zu of %zu\n", report->bands, report->of);
+	for (size_t i = 0; i < SPEC_LEVEL_FORMULAS; i++) {
+		const struct spec_level_difference *difference = &report->difference[i];
+		char rms[16], most[16];
+
+		snprintf(rms, sizeof rms, "%s-rms", name[i]);
+		snprintf(most, sizeof most, "%s-max", name[i]);
+		fprintf(stream, "%-10s %.6g\n", name[i], difference->mean);
+		fprintf(stream, "%-10s %.6g\n", rms, difference->rms);
+		fprintf(stream, "%-10s %.6g at %d,%d\n", most, difference->most,
+			difference->x, difference->y);
+	}
+	if (report->nonfinite > 0)
+		fprintf(stream, "nonfinite  %lld\n", report->nonfinite);
 }

@@ -5,6 +5,8 @@
 #ifndef SPEC_IMAGE_LEVEL_H
 #define SPEC_IMAGE_LEVEL_H
 
+#include <stdio.h>
+
 #include "base/error.h"
 #include "image/reader.h"
 #include "image/rgb.h"
@@ -62,23 +64,27 @@ struct spec_level_report {
  * of the image are read and compared, and the reader must have been opened with
  * settings->reread. Without a level nothing is done, and the report stays as it was.
  * Given:    image  the reader's, or a layer of it
- *           seen  the plan of the same image, observer, light and exposure in X, Y and Z;
- *                 read only to compare
- * Compared: CIELAB beside the white of seen, before anything that comes after the sums. At
- *           a bound of every pixel no difference is above it, and a level is no choice where
- *           a pixel that is not finite with all bands becomes finite. Bounded levels always
- *           meet their bound: the finest has all bands. The same bits for any threads.
- * Errors:   those of spec_coarse_stride, with the image's name, and of reading; rgb is then
- *           as it was
+ *           setup  what rgb was planned by
+ * Compared: CIELAB of X, Y and Z by the same observer, light, rule and exposure, beside their
+ *           white, before anything that comes after the sums. At a bound of every pixel no
+ *           difference is above it, and a level is no choice where a pixel that is not
+ *           finite with all bands becomes finite. Bounded levels always meet their bound:
+ *           the finest has all bands. The same bits for any threads.
+ * Errors:   those of spec_coarse_stride and spec_rgb_plan, with the image's name, and of
+ *           reading; rgb is then as it was
  */
 enum spec_status spec_level_apply(const struct spec_level *level,
 	struct spec_reader *reader, const struct spec_image *image,
-	const struct spec_rgb *seen, struct spec_rgb *rgb, struct spec_level_report *report,
-	const struct spec_settings *settings, struct spec_error *error);
+	const struct spec_rgb_setup *setup, struct spec_rgb *rgb,
+	struct spec_level_report *report, const struct spec_settings *settings,
+	struct spec_error *error);
 
 /* In words, such as "9 of 81 bands, level 3, straight lines between them". */
 #define SPEC_LEVEL_TEXT 128
 void spec_level_text(const struct spec_level *level, const struct spec_level_report *report,
 	char text[SPEC_LEVEL_TEXT]);
+
+/* The report of a level that was bounded or measured, a line for each number. */
+void spec_level_print(const struct spec_level_report *report, FILE *stream);
 
 #endif
