@@ -14,39 +14,11 @@
 #include <unistd.h>
 
 #include "base/memory.h"
-#include "base/number.h"
 #include "base/path.h"
 #include "colour/space.h"
-#include "image/description.h"
-#include "image/given.h"
-#include "image/plugin.h"
-#include "image/pnginput.h"
-#include "image/reading.h"
+#include "image/picturereading.h"
 
 #define MOST_FILES 4096
-
-/* One file of the picture. */
-struct input {
-	char *path;
-	struct spec_png *png;
-	struct spec_source source; /* of a PNG picture that is one of several */
-	void *handle;              /* the plugin's */
-	struct spec_pictures_content content;
-	struct spec_png_content png_content;
-	double wavelength_nm; /* that it says, or its name; or 0 */
-	int has_bin;
-	double bin_nm[2];
-};
-
-struct picture_reader {
-	struct spec_reader base;
-	struct spec_plugin plugin;
-	struct input *input;
-	size_t inputs, input_room;
-	/* Of each channel of the image: which input's, and which of its channels. */
-	size_t *from_input, *from_channel;
-	int colours; /* light as eyes see it: to be made linear where it is not */
-};
 
 /* A file of Windows' begins with two letters only: the sizes behind must fit, too. */
 static int
@@ -96,13 +68,13 @@ add_input(struct picture_reader *reader, const char *folder, const char *name,
 	void *list = reader->input;
 	enum spec_status status = spec_memory_grow(&list, &reader->input_room,
 		reader->inputs + 1, sizeof *reader->input, "files", error);
-	struct input *input;
+	struct picture_input *input;
 
 	reader->input = list;
 	if (status != SPEC_OK)
 		return status;
 	input = &reader->input[reader->inputs];
-	*input = (struct input){
+	*input = (struct picture_input){
 		.path = spec_memory_new(length, 1, "bytes", error), .source = {.fd = -1}};
 	if (!input->path)
 		return SPEC_ENOMEM;
@@ -124,7 +96,7 @@ spec_reading_add_picture(
 static int
 compare_paths(const void *a, const void *b)
 {
-	const struct input *one = a, *two = b;
+	const struct picture_input *one = a, *two = b;
 
 	return strverscmp(one->path, two->path);
 }
@@ -166,7 +138,7 @@ list_folder(struct picture_reader *reader, const char *path, struct spec_error *
 
 /* Takes a picture for PNG, and begins to read it, if it is; *is_png. */
 static enum spec_status
-try_png(struct input *input, struct spec_source *source, int *is_png,
+try_png(struct picture_input *input, struct spec_source *source, int *is_png,
 	struct spec_error *error)
 {
 	unsigned char bytes[16];
@@ -189,7 +161,8 @@ try_png(struct input *input, struct spec_source *source, int *is_png,
 
 /* OpenImageIO wants a file by its name: a pipe is copied into one without. */
 static enum spec_status
-open_foreign(struct picture_reader *reader, struct input *input, struct spec_error *error)
+open_foreign(struct picture_reader *reader, struct picture_input *input,
+	struct spec_error *error)
 {
 	struct spec_source *source = &reader->base.source;
 	int piped = source->fd >= 0 && (!source->seekable || source->fd == STDIN_FILENO);
@@ -208,7 +181,8 @@ open_foreign(struct picture_reader *reader, struct input *input, struct spec_err
 }
 
 static enum spec_status
-open_input(struct picture_reader *reader, struct input *input, struct spec_error *error)
+open_input(struct picture_reader *reader, struct picture_input *input,
+	struct spec_error *error)
 {
 	struct spec_source *source = &reader->base.source;
 	struct spec_error cause = {0};
@@ -269,282 +243,6 @@ open_inputs(struct picture_reader *reader, struct spec_error *error)
 	return SPEC_OK;
 }
 
-/* ---- what they are ---- */
-
-/* The channels and where each comes from, the image's order being by name. */
-static enum spec_status
-settle_channels(struct picture_reader *reader, const struct spec_settings *settings,
-	struct spec_error *error)
-{
-	struct spec_image *image = &reader->base.image;
-	const char *name = reader->base.source.name;
-	enum spec_status status = spec_given_apply(image, settings, name, error);
-
-	if (status == SPEC_OK)
-		status = spec_image_index(image, name, error);
-	reader->from_input = spec_memory_new(
-		image->channels, sizeof *reader->from_input, "channels", error);
-	reader->from_channel = spec_memory_new(
-		image->channels, sizeof *reader->from_channel, "channels", error);
-	return status == SPEC_OK && (!reader->from_input || !reader->from_channel)
-		       ? SPEC_ENOMEM
-		       : status;
-}
-
-/* Up to four channels without wavelengths: Y, Y A, R G B or R G B A. */
-static enum spec_status
-set_colours(struct picture_reader *reader, const struct spec_settings *settings,
-	struct spec_error *error)
-{
-	static const char *const names[] = {"Y", "YA", "RGB", "RGBA"};
-	struct spec_image *image = &reader->base.image;
-	const struct spec_pictures_content *content = &reader->input[0].content;
-	const char *letters = names[content->channels - 1];
-	enum spec_status status = SPEC_OK;
-	char name[2] = "";
-
-	for (int i = 0; i < content->channels && status == SPEC_OK; i++) {
-		name[0] = letters[i];
-		status = spec_image_add_channel(image, name, SPEC_SAMPLE_FLOAT, error);
-	}
-	reader->colours = 1;
-	if (status == SPEC_OK && reader->input[0].png_content.has_primaries)
-		status = spec_image_set_attribute(image, "chromaticities", "chromaticities",
-			reader->input[0].png_content.primaries,
-			sizeof reader->input[0].png_content.primaries, error);
-	if (status == SPEC_OK)
-		status = settle_channels(reader, settings, error);
-	for (int i = 0; i < content->channels && status == SPEC_OK; i++) {
-		name[0] = letters[i];
-		reader->from_channel[spec_image_find_channel(image, name)] = (size_t)i;
-	}
-	return status;
-}
-
-/* Bands in the layout's names; band i of those given is channel i, or input i's first. */
-static enum spec_status
-set_bands(struct picture_reader *reader, const struct spec_grid *grid, enum spec_role role,
-	const struct spec_settings *settings, struct spec_error *error)
-{
-	struct spec_image *image = &reader->base.image;
-	enum spec_status status = spec_image_add_bands(
-		image, role, 1, grid->wavelength_nm, grid->count, SPEC_SAMPLE_FLOAT, error);
-
-	if (status == SPEC_OK)
-		status = settle_channels(reader, settings, error);
-	for (size_t i = 0; i < grid->count && status == SPEC_OK; i++) {
-		int same;
-		size_t found =
-			spec_image_nearest_band(image, grid->wavelength_nm[i], &same);
-		size_t channel = image->band_channel[found];
-
-		reader->from_input[channel] = reader->inputs > 1 ? i : 0;
-		reader->from_channel[channel] = reader->inputs > 1 ? 0 : i;
-	}
-	return status;
-}
-
-static enum spec_status
-find_role(const struct picture_reader *reader, const struct spec_settings *settings,
-	enum spec_role *role, struct spec_error *error)
-{
-	char *quantity;
-
-	*role = settings->read_as;
-	if (*role != SPEC_ROLE_OTHER)
-		return SPEC_OK;
-	quantity = spec_image_quantity(&reader->base.image, error);
-	if (!quantity)
-		return SPEC_ENOMEM;
-	if (strstr(quantity, "radiance"))
-		*role = SPEC_ROLE_EMISSIVE;
-	else if (strstr(quantity, "reflectance") || strstr(quantity, "transmittance"))
-		*role = SPEC_ROLE_REFLECTIVE;
-	free(quantity);
-	if (*role != SPEC_ROLE_OTHER)
-		return SPEC_OK;
-	return spec_error_set(error, SPEC_EUSAGE,
-		"%s: does not say whether it holds radiance or reflectance (--read-as)",
-		reader->base.source.name);
-}
-
-/* What the first picture says of the image. */
-static enum spec_status
-describe(struct picture_reader *reader, struct spec_description *said,
-	struct spec_error *error)
-{
-	const struct input *input = &reader->input[0];
-	enum spec_status status = spec_description_read(
-		input->content.description, &reader->base.image, said, error);
-
-	if (status == SPEC_EFORMAT)
-		spec_error_prefix(error, "%s", input->path);
-	return status;
-}
-
-/* Many channels in one file: what it describes itself as, or what the user says. */
-static enum spec_status
-set_cube(struct picture_reader *reader, const struct spec_settings *settings,
-	struct spec_error *error)
-{
-	const struct spec_pictures_content *content = &reader->input[0].content;
-	const char *name = reader->base.source.name;
-	struct spec_image *image = &reader->base.image;
-	struct spec_description said;
-	struct spec_grid given = {0};
-	enum spec_role role = SPEC_ROLE_OTHER;
-	enum spec_status status = describe(reader, &said, error);
-	int says = status == SPEC_OK && !settings->wavelengths && said.grid.count > 0;
-
-	if (status == SPEC_OK && !says) {
-		status = spec_given_wavelengths(
-			settings, (size_t)content->channels, name, &given, error);
-		spec_image_remove_attribute(image, "spec:bins");
-	}
-	if (says && said.grid.count != (size_t)content->channels)
-		status = spec_error_set(error, SPEC_EFORMAT,
-			"%s: describes %zu bands and has %d channels", name,
-			said.grid.count, content->channels);
-	if (status == SPEC_OK && says && said.has_bin && said.grid.count == 1)
-		status = spec_image_set_bins(image, said.bin_nm, 1, error);
-	if (status == SPEC_OK)
-		status = find_role(reader, settings, &role, error);
-	if (status == SPEC_OK)
-		status = set_bands(
-			reader, says ? &said.grid : &given, role, settings, error);
-	spec_description_free(&said);
-	spec_grid_free(&given);
-	return status;
-}
-
-/* The wavelength in a name such as "550nm.png" or "scene_w550.5nm.tif"; 0: none. */
-static double
-wavelength_of(const char *path)
-{
-	const char *found = spec_path_name(path);
-
-	while ((found = strstr(found, "nm"))) {
-		const char *from = found;
-		double value;
-
-		while (from > path && (isdigit((unsigned char)from[-1]) ||
-					      (from[-1] == '.' && from - path > 1 &&
-						      isdigit((unsigned char)from[-2]))))
-			from--;
-		if (from < found &&
-			spec_number_scan(from, '.', &value) == (size_t)(found - from))
-			return value;
-		found += 2;
-	}
-	return 0;
-}
-
-static int
-compare_wavelengths(const void *a, const void *b)
-{
-	const struct input *one = a, *two = b;
-
-	return (one->wavelength_nm > two->wavelength_nm) -
-	       (one->wavelength_nm < two->wavelength_nm);
-}
-
-/* The wavelength of a picture, and its bin, as it says itself, or as its name does. */
-static enum spec_status
-find_wavelength(struct input *input, struct spec_error *error)
-{
-	const char *description = input->content.description;
-	struct spec_image passed = {
-		.data = {0, 0, input->content.width, input->content.height}};
-	struct spec_description said = {0};
-	enum spec_status status = SPEC_OK;
-
-	if (spec_description_is_ours(description))
-		status = spec_description_read(description, &passed, &said, error);
-	if (status == SPEC_EFORMAT)
-		spec_error_prefix(error, "%s", input->path);
-	input->wavelength_nm = said.grid.count == 1 ? said.grid.wavelength_nm[0]
-						    : wavelength_of(input->path);
-	input->has_bin = said.has_bin && said.grid.count == 1;
-	memcpy(input->bin_nm, said.bin_nm, sizeof input->bin_nm);
-	spec_description_free(&said);
-	spec_image_clear(&passed);
-	return status;
-}
-
-/* Of each picture its wavelength, if all have one; sorted by it. */
-static enum spec_status
-find_wavelengths(
-	struct picture_reader *reader, struct spec_grid *grid, struct spec_error *error)
-{
-	enum spec_status status = SPEC_OK;
-	size_t known = 0;
-
-	for (size_t i = 0; i < reader->inputs && status == SPEC_OK; i++) {
-		status = find_wavelength(&reader->input[i], error);
-		known += reader->input[i].wavelength_nm > 0;
-	}
-	if (status != SPEC_OK || known < reader->inputs)
-		return status;
-	qsort(reader->input, reader->inputs, sizeof *reader->input, compare_wavelengths);
-	status = spec_grid_new(reader->inputs, grid, error);
-	for (size_t i = 0; i < reader->inputs && status == SPEC_OK; i++) {
-		grid->wavelength_nm[i] = reader->input[i].wavelength_nm;
-		if (i > 0 && grid->wavelength_nm[i] == grid->wavelength_nm[i - 1])
-			status = spec_error_set(error, SPEC_EFORMAT,
-				"%s and %s are both of %g nm", reader->input[i - 1].path,
-				reader->input[i].path, grid->wavelength_nm[i]);
-	}
-	return status;
-}
-
-/* The bins of all pictures, where they have some that lie side by side. */
-static enum spec_status
-join_bins(struct picture_reader *reader, struct spec_error *error)
-{
-	size_t count = reader->inputs;
-	double *edges_nm = spec_memory_new(count + 1, sizeof *edges_nm, "edges", error);
-	enum spec_status status = SPEC_OK;
-	int joined = 1;
-
-	if (!edges_nm)
-		return SPEC_ENOMEM;
-	for (size_t i = 0; i < count; i++) {
-		const struct input *input = &reader->input[i];
-
-		joined &= input->has_bin && (i == 0 || input->bin_nm[0] == edges_nm[i]);
-		edges_nm[i] = input->bin_nm[0];
-		edges_nm[i + 1] = input->bin_nm[1];
-	}
-	if (joined)
-		status = spec_image_set_bins(&reader->base.image, edges_nm, count, error);
-	free(edges_nm);
-	return status;
-}
-
-static enum spec_status
-set_stack(struct picture_reader *reader, const struct spec_settings *settings,
-	struct spec_error *error)
-{
-	struct spec_grid grid = {0};
-	enum spec_role role = SPEC_ROLE_OTHER;
-	enum spec_status status = describe(reader, NULL, error);
-
-	spec_image_remove_attribute(&reader->base.image, "spec:bins");
-	if (status == SPEC_OK && !settings->wavelengths)
-		status = find_wavelengths(reader, &grid, error);
-	if (status == SPEC_OK && grid.count == 0)
-		status = spec_given_wavelengths(
-			settings, reader->inputs, reader->base.source.name, &grid, error);
-	else if (status == SPEC_OK)
-		status = join_bins(reader, error);
-	if (status == SPEC_OK)
-		status = find_role(reader, settings, &role, error);
-	if (status == SPEC_OK)
-		status = set_bands(reader, &grid, role, settings, error);
-	spec_grid_free(&grid);
-	return status;
-}
-
 /* ---- the reader ---- */
 
 static enum spec_status
@@ -565,13 +263,7 @@ open_reader(struct spec_reader *base, const char *path,
 	if (status != SPEC_OK)
 		return status;
 	content = &reader->input[0].content;
-	if (folder)
-		status = set_stack(reader, settings, error);
-	else if (settings->wavelengths || content->channels > 4 ||
-		 spec_description_is_ours(content->description))
-		status = set_cube(reader, settings, error);
-	else
-		status = set_colours(reader, settings, error);
+	status = picture_describe(reader, settings, error);
 	for (size_t i = 0; i < reader->inputs; i++)
 		channels += (size_t)reader->input[i].content.channels;
 	base->chunk_lines = 1;
@@ -585,7 +277,7 @@ close_reader(struct spec_reader *base)
 	struct picture_reader *reader = (struct picture_reader *)base;
 
 	for (size_t i = 0; i < reader->inputs; i++) {
-		struct input *input = &reader->input[i];
+		struct picture_input *input = &reader->input[i];
 
 		if (input->handle)
 			reader->plugin.table->close_input(input->handle);
@@ -627,7 +319,7 @@ fetch(struct spec_decoder *decoder, struct spec_error *error)
 	struct spec_error cause = {0};
 
 	for (size_t i = 0; i < reader->inputs && status == SPEC_OK; i++) {
-		const struct input *input = &reader->input[i];
+		const struct picture_input *input = &reader->input[i];
 
 		if (!is_wanted(decoder, i))
 			continue;
@@ -646,7 +338,7 @@ fetch(struct spec_decoder *decoder, struct spec_error *error)
 
 /* Grey that was saved as red, green and blue is one band; what is coloured is none. */
 static enum spec_status
-check_grey(const struct input *input, const float *from, size_t pixels,
+check_grey(const struct picture_input *input, const float *from, size_t pixels,
 	struct spec_error *error)
 {
 	size_t channels = (size_t)input->content.channels;
@@ -663,7 +355,7 @@ static void
 decode_row(const struct picture_reader *reader, size_t channel, const float *from,
 	float *row, size_t width)
 {
-	const struct input *input = &reader->input[reader->from_input[channel]];
+	const struct picture_input *input = &reader->input[reader->from_input[channel]];
 	size_t step = (size_t)input->content.channels;
 
 	for (size_t x = 0; x < width; x++)
@@ -704,7 +396,7 @@ decode(struct spec_decoder *decoder, struct spec_error *error)
 	enum spec_status status = spec_reading_planes(decoder, error);
 
 	for (size_t i = 0; i < reader->inputs && status == SPEC_OK; i++) {
-		const struct input *input = &reader->input[i];
+		const struct picture_input *input = &reader->input[i];
 		size_t stride = width * (size_t)input->content.channels;
 
 		if (!is_wanted(decoder, i))
