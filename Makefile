@@ -186,7 +186,7 @@ $(TRACERS:%=$(BUILD)/%): LDLIBS += -lembree3
 
 LINK = $(QUIET)$(CC) $(ALLLDFLAGS) -o $@ $^ $(LDLIBS)
 
-$(PROGRAMS): $(BUILD)/bin/%: $(BUILD)/obj/cmd/%.o $(BUILD)/obj/cmd/all/names.o $(LIBRARY)
+$(PROGRAMS): $(BUILD)/bin/%: $(BUILD)/obj/cmd/%.o $(BUILD)/obj/cmd/all/tool.o $(LIBRARY)
 	@mkdir -p $(@D)
 	$(SAY) link $@
 	$(LINK)
@@ -228,7 +228,7 @@ figures: all $(FIGURES)
 # Looking at the source; each step stands alone, and lint is all of them.
 
 LINTS = lint-format lint-cppcheck lint-tidy lint-shell lint-man
-CODE = $(wildcard cmd/*.c cmd/all/*.c lib/*/*.[ch] lib/*/*/*.c lib/*/*.cpp tests/*/*.[ch])
+CODE = $(wildcard cmd/*.c cmd/all/*.[ch] lib/*/*.[ch] lib/*/*/*.c lib/*/*.cpp tests/*/*.[ch])
 SCRIPTS = $(shell grep -slE '^\#!.*(bash|bats)' .ci/* tests/* tests/*/*) $(wildcard tests/*/*.bash tests/figures/*.sh)
 
 lint: $(LINTS)

@@ -4,9 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "all/tool.h"
 #include "base/number.h"
-#include "cli/options.h"
-#include "cli/progress.h"
 #include "colour/observer.h"
 #include "compare/falsecolour.h"
 #include "image/account.h"
@@ -605,13 +604,9 @@ main(int argc, char **argv)
 	enum spec_status status;
 	struct cli cli;
 
-	cli_start(&cli, &program, argc, argv);
+	tool_start(&cli, &program, argc, argv);
 	parse(&cli, &job);
-	cli_progress_start(&progress, "lines", job.settings.progress, job.settings.quiet);
-	job.settings.argc = argc;
-	job.settings.argv = argv;
-	job.settings.show = cli_progress_show;
-	job.settings.show_state = &progress;
+	tool_begin(&progress, &job.settings, argc, argv);
 
 	status = spec_reader_open(&reader, job.input, &job.settings, &error);
 	cli_check(&cli, status, &error);

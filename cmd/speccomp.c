@@ -3,10 +3,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "all/tool.h"
 #include "base/memory.h"
 #include "base/number.h"
-#include "cli/options.h"
-#include "cli/progress.h"
 #include "compare/arithmetic.h"
 
 static const struct cli_option options[] = {
@@ -253,13 +252,9 @@ main(int argc, char **argv)
 	struct cli cli;
 
 	job.setup.kind = SPEC_ROLE_OTHER;
-	cli_start(&cli, &program, argc, argv);
+	tool_start(&cli, &program, argc, argv);
 	parse(&cli, &job, &error);
-	cli_progress_start(&progress, "lines", job.settings.progress, job.settings.quiet);
-	job.settings.argc = argc;
-	job.settings.argv = argv;
-	job.settings.show = cli_progress_show;
-	job.settings.show_state = &progress;
+	tool_begin(&progress, &job.settings, argc, argv);
 
 	status = combine(&job, &error);
 	cli_progress_end(&progress);

@@ -3,9 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "all/tool.h"
 #include "base/memory.h"
-#include "cli/options.h"
-#include "cli/progress.h"
 #include "image/convert.h"
 #include "image/convertoptions.h"
 #include "image/curveinput.h"
@@ -528,13 +527,9 @@ main(int argc, char **argv)
 	enum spec_status status;
 	struct cli cli;
 
-	cli_start(&cli, &program, argc, argv);
+	tool_start(&cli, &program, argc, argv);
 	parse(&cli, &job, &error);
-	cli_progress_start(&progress, "lines", job.settings.progress, job.settings.quiet);
-	job.settings.argc = argc;
-	job.settings.argv = argv;
-	job.settings.show = cli_progress_show;
-	job.settings.show_state = &progress;
+	tool_begin(&progress, &job.settings, argc, argv);
 
 	status = spec_curve_input_is_image(&job.from) || spec_kind_is_curve(job.input[0])
 			 ? convert_curves(&cli, &job, &error)

@@ -3,11 +3,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "all/tool.h"
 #include "base/number.h"
 #include "base/output.h"
 #include "base/text.h"
-#include "cli/options.h"
-#include "cli/progress.h"
 #include "colour/observer.h"
 #include "compare/heatmap.h"
 #include "compare/report.h"
@@ -416,11 +415,9 @@ main(int argc, char **argv)
 
 	job.observer = "1931";
 	job.illuminant = "illuminants/D65";
-	cli_start(&cli, &program, argc, argv);
+	tool_start(&cli, &program, argc, argv);
 	parse(&cli, &job);
-	cli_progress_start(&progress, "lines", job.settings.progress, job.settings.quiet);
-	job.settings.show = cli_progress_show;
-	job.settings.show_state = &progress;
+	tool_begin(&progress, &job.settings, argc, argv);
 
 	for (int i = 0; i < 2; i++)
 		cli_check(&cli,

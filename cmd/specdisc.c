@@ -3,12 +3,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "all/tool.h"
 #include "base/memory.h"
 #include "base/number.h"
 #include "base/output.h"
 #include "cli/groups.h"
-#include "cli/options.h"
-#include "cli/progress.h"
 #include "image/diffract.h"
 #include "image/discchart.h"
 #include "optics/ordertable.h"
@@ -396,13 +395,9 @@ main(int argc, char **argv)
 	long long bare = 0;
 	struct cli cli;
 
-	cli_start(&cli, &program, argc, argv);
+	tool_start(&cli, &program, argc, argv);
 	parse(&cli, &job, &error);
-	cli_progress_start(&progress, "lines", job.settings.progress, job.settings.quiet);
-	job.settings.argc = argc;
-	job.settings.argv = argv;
-	job.settings.show = cli_progress_show;
-	job.settings.show_state = &progress;
+	tool_begin(&progress, &job.settings, argc, argv);
 
 	status = job.orders || job.chart.axes ? show_disc(&job, &error)
 					      : disc_image(&job, &bare, &error);

@@ -4,13 +4,12 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "all/tool.h"
 #include "base/json.h"
 #include "base/memory.h"
 #include "base/output.h"
 #include "base/source.h"
 #include "base/text.h"
-#include "cli/options.h"
-#include "cli/progress.h"
 #include "colour/appearance.h"
 #include "image/describe.h"
 #include "image/kind.h"
@@ -553,7 +552,7 @@ main(int argc, char **argv)
 	struct job job = {.cli = &cli};
 	int code;
 
-	cli_start(&cli, &program, argc, argv);
+	tool_start(&cli, &program, argc, argv);
 	parse(&cli, &job, &error);
 	job.settings.show = cli_progress_show;
 	job.settings.show_state = &job.progress;

@@ -3,9 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "all/tool.h"
 #include "base/number.h"
-#include "cli/options.h"
-#include "cli/progress.h"
 #include "render/render.h"
 #include "scene/parse.h"
 
@@ -151,18 +150,14 @@ main(int argc, char **argv)
 	enum spec_status status;
 	struct cli cli;
 
-	cli_start(&cli, &program, argc, argv);
+	tool_start(&cli, &program, argc, argv);
 	parse(&cli, &job);
 	status = spec_scene_read(&scene, job.input ? job.input : "-", &error);
 	cli_check(&cli, status, &error);
 	for (size_t i = 0; i < scene.warnings && !job.settings.quiet; i++)
 		cli_warn(&cli, "%s", scene.warning[i]);
 
-	cli_progress_start(&progress, "lines", job.settings.progress, job.settings.quiet);
-	job.settings.argc = argc;
-	job.settings.argv = argv;
-	job.settings.show = cli_progress_show;
-	job.settings.show_state = &progress;
+	tool_begin(&progress, &job.settings, argc, argv);
 	status = render_scene(&job, &scene, &error);
 	cli_progress_end(&progress);
 	cli_check(&cli, status, &error);
