@@ -199,13 +199,16 @@ rename_channels() {
 
 # What pixel_holds, and awk in other places, knows.
 #   wrong(TEXT)
-#   near(NUMBER, WANT, TOLERANCE)     within this share of what is wanted
+#   near(NUMBER, WANT, TOLERANCE)     within this share of what is wanted, and no NaN, which to some
+#                                     awks is as small as any number
 #   is(CHANNEL, WANT[, TOLERANCE])    to has this value, within 1e-6 of it or what is given
 #   wavelength(CHANNEL)               in nm, of a band
 statements='
   function wrong(text) { print text; failed = 1 }
   function size(a) { return a < 0 ? -a : a }
-  function near(a, want, tolerance) { return size(a - want) <= tolerance * size(want) + 1e-12 }
+  function near(a, want, tolerance) {
+    return a !~ /nan/ && size(a - want) <= tolerance * size(want) + 1e-12
+  }
   function is(name, want, tolerance) {
     if (!(name in to)) wrong("no channel " name)
     else if (!near(to[name], want, tolerance ? tolerance : 1e-6))
