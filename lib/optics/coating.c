@@ -73,9 +73,10 @@ settle_sides(struct spec_coating *coating, struct spec_error *error)
 		return SPEC_ENOMEM;
 	for (size_t i = 0; i < count; i++) {
 		double ratio = front->n[i] / front->n[behind + i];
+		int clear = front->k[behind + i] < SPEC_COATING_CLEAR &&
+			    front->n[behind + i] > 0;
 
-		coating->from_behind[i] =
-			front->k[behind + i] < SPEC_COATING_CLEAR ? ratio * ratio : 0;
+		coating->from_behind[i] = clear ? ratio * ratio : 0;
 		coating->from_before[i] = 1 / (ratio * ratio);
 	}
 	return SPEC_OK;

@@ -118,11 +118,13 @@ spec_thickness_row(const struct spec_thickness *thickness, const float *height,
 	size_t count, double *thickness_nm)
 {
 	double top = thickness->top_nm, bottom = thickness->bottom_nm;
+	/* The quotient of any two lengths need not be a number. */
+	double rise = log(top) - log(bottom);
 
 	if (thickness->kind == SPEC_THICKNESS_GRAVITY && !thickness->downwards)
-		hang(height, count, bottom, log(top / bottom), thickness_nm);
+		hang(height, count, bottom, rise, thickness_nm);
 	else if (thickness->kind == SPEC_THICKNESS_GRAVITY)
-		hang(height, count, top, log(bottom / top), thickness_nm);
+		hang(height, count, top, -rise, thickness_nm);
 	for (size_t i = 0; i < count && thickness->kind == SPEC_THICKNESS_CONSTANT; i++)
 		thickness_nm[i] = top;
 }
