@@ -97,6 +97,19 @@ plan_lamps(struct spec_diffract *diffract, struct spec_error *error)
 	return SPEC_OK;
 }
 
+/* Tangents are to be neither too long nor too short for a float. */
+static void
+make_unit(double axis[3])
+{
+	double most = fmax(fmax(fabs(axis[0]), fabs(axis[1])), fabs(axis[2])), length;
+
+	for (size_t i = 0; i < 3; i++)
+		axis[i] /= most;
+	length = sqrt(axis[0] * axis[0] + axis[1] * axis[1] + axis[2] * axis[2]);
+	for (size_t i = 0; i < 3; i++)
+		axis[i] /= length;
+}
+
 enum spec_status
 spec_diffract_plan(struct spec_diffract *diffract, const struct spec_image *input,
 	const struct spec_diffract_setup *setup, const char *name, struct spec_error *error)
@@ -104,6 +117,8 @@ spec_diffract_plan(struct spec_diffract *diffract, const struct spec_image *inpu
 	enum spec_status status;
 
 	*diffract = (struct spec_diffract){.setup = *setup, .name = name};
+	if (setup->has_centre)
+		make_unit(diffract->setup.axis);
 	status = spec_layers_find(&diffract->layers, input, name, error);
 	if (status == SPEC_OK)
 		status = spec_relight_plan(&diffract->relight, input,

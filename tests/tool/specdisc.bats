@@ -45,7 +45,7 @@ disc_image() {
     [ ! -e b.exr ] || complain "an image was made: $*"
   }
   refused --orders --chart 'eye 0..9'
-  for alone in --orders --chart=angle\ 0..9; do
+  for alone in --orders --chart=eye\ 0..9; do
     refused "$alone" a.exr
     refused "$alone" -
     refused "$alone" --mask 3
@@ -76,7 +76,7 @@ disc_image() {
   done
   fails_cleanly specdisc --preset lp a.exr -o b.exr
   [[ $stderr = *'cd, dvd, bluray and vinyl' ]] || complain "$stderr"
-  for spread in 0 -1 46 x 1nm 2rad; do
+  for spread in 0 -1 0.00009 45.1 46 x 1nm 2rad; do
     fails_cleanly specdisc --model orders --spread $spread a.exr -o b.exr
   done
   for eye in 91 -91 x; do
@@ -85,7 +85,7 @@ disc_image() {
   for option in --angle=91 --angle=-1 --azimuth=181 --azimuth=-181 --azimuth=x --grid=500; do
     fails_cleanly specdisc --orders $option
   done
-  for size in 0x5 5 40000x5; do
+  for size in 0x5 5 40000x5 32769x1; do
     fails_cleanly specdisc --chart 'eye 0..9' --size $size -o b.exr
   done
   no_leftovers . a.exr
@@ -582,7 +582,7 @@ negated() {
   layers --scene disc --size 30x20 --grid 400:700:10 -o a.exr
   specdisc a.exr -o want.exr
   for around in '--centre 0,0,0' '--centre 0,0,0 --axis 0,0,1' '--centre 0,0,0 --axis 0,0,-3.5' \
-    '--centre=-0,0,7 --axis 0,0,1e-3'; do
+    '--centre=-0,0,7 --axis 0,0,1e-3' '--centre 0,0,0 --axis 0,0,1e-300' '--centre 0,0,0 --axis 0,0,1e9'; do
     # shellcheck disable=SC2086 # words
     specdisc $around a.exr -o b.exr
     for pixel in 11,9 15,14 19,7 14,9; do
