@@ -29,12 +29,9 @@ set_header(struct spec_relight *relight, int (*goes)(const struct spec_channel *
 	status = spec_image_set_text(image, "spectralLayoutVersion", "1.0", error);
 	if (status == SPEC_OK && !spec_image_attribute(image, "emissiveUnits"))
 		status = spec_image_set_text(image, "emissiveUnits", "W.m^-2.sr^-1", error);
-	/* Bins that came with other names stay only as an attribute. */
+	/* Bins that the old names say are known to an index alone. */
 	if (status == SPEC_OK && relight->input->edges_nm)
 		status = spec_image_index(image, name, error);
-	if (status == SPEC_OK && relight->input->edges_nm)
-		status = spec_image_set_bins(
-			image, relight->input->edges_nm, relight->input->bands, error);
 	return status == SPEC_OK ? spec_image_rename_bands(image, name, error) : status;
 }
 
