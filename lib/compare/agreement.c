@@ -51,21 +51,27 @@ check_alike(const struct spec_plan *plan, size_t i)
 	return status == SPEC_OK ? spec_match_bins(first, other, plan->error) : status;
 }
 
-/* Reflectance is tabulated at points, and multiplies light in bins nevertheless. */
+/*
+ * Reflectance is tabulated at points, and multiplies light in bins nevertheless; an expression
+ * may join what it likes to bins.
+ */
 static enum spec_status
 check_bins(const struct spec_plan *plan)
 {
-	size_t first = 0;
+	int strict = plan->setup->operation != SPEC_ARITHMETIC_EXPRESSION;
 	enum spec_status status = SPEC_OK;
 
-	while (first < plan->operands && !plan->image[first]->edges_nm)
-		first++;
-	for (size_t i = first + 1; i < plan->operands && status == SPEC_OK; i++) {
-		if (plan->image[i]->edges_nm ||
-			(plan->image[i]->role == plan->image[first]->role &&
-				plan->setup->operation != SPEC_ARITHMETIC_EXPRESSION))
-			status = spec_match_bins(
-				&plan->input[first], &plan->input[i], plan->error);
+	for (size_t i = 1; i < plan->operands; i++) {
+		const struct spec_image *image = plan->image[i];
+
+		for (size_t j = 0; j < i && status == SPEC_OK; j++) {
+			const struct spec_image *before = plan->image[j];
+
+			if ((before->edges_nm && image->edges_nm) ||
+				(strict && before->role == image->role))
+				status = spec_match_bins(
+					&plan->input[j], &plan->input[i], plan->error);
+		}
 	}
 	return status;
 }

@@ -65,8 +65,6 @@ settle_quotient(struct spec_plan *plan)
 	if (above->role == SPEC_ROLE_REFLECTIVE)
 		return SPEC_OK;
 	status = spec_match_quantities(&plan->input[0], &plan->input[1], plan->error);
-	if (status == SPEC_OK)
-		status = spec_match_bins(&plan->input[0], &plan->input[1], plan->error);
 	if (status == SPEC_OK && above->stokes > 1)
 		return spec_error_set(plan->error, SPEC_EUNSUPPORTED,
 			"%s has %d Stokes components, which have no quotient",

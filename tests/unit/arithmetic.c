@@ -348,6 +348,39 @@ test_over(void **state)
 	refused_as(plan(SPEC_ARITHMETIC_OVER), "a.exr has no alpha (A), so b.exr");
 }
 
+/* Of a mean it is made as the bands are, where an image without it covers all; else copied. */
+static void
+test_alpha(void **state)
+{
+	(void)state;
+	new_image(SPEC_ROLE_EMISSIVE, 1, 2, alpha);
+	new_image(SPEC_ROLE_EMISSIVE, 1, 2, alpha);
+	set_sample(&image[0], "A", 0.25);
+	set_sample(&image[1], "A", 0.75);
+	ok(spec_samples_set(&image[0], 1, "a.exr", &error));
+	ok(spec_samples_set(&image[1], 3, "b.exr", &error));
+	ok(plan(SPEC_ARITHMETIC_MEAN));
+	is("A", 0.5);
+	ok(plan(SPEC_ARITHMETIC_MERGE));
+	is("A", 0.625);
+	for (enum spec_arithmetic_operation operation = SPEC_ARITHMETIC_ADD;
+		operation <= SPEC_ARITHMETIC_MAX; operation++) {
+		if (operation == SPEC_ARITHMETIC_MULTIPLY)
+			continue; /* of light by light there is none */
+		ok(plan(operation));
+		is("A", 0.25);
+	}
+	ok(plan_expression("a + b", SPEC_ROLE_OTHER));
+	is("A", 0.25);
+	clear();
+	new_image(SPEC_ROLE_EMISSIVE, 1, 2, alpha);
+	light();
+	set_sample(&image[0], "A", 0.25);
+	ok(plan(SPEC_ARITHMETIC_MEAN));
+	is("A", 0.625);
+	clear();
+}
+
 static enum spec_status
 plan_lerp(const char *text)
 {
@@ -386,6 +419,10 @@ test_lerp(void **state)
 	is("A", 1);
 	ok(plan_lerp("id=6"));
 	is(BAND, 8);
+	set_sample(&image[0], "id", 4294967295);
+	ok(plan_lerp("id=4294967295"));
+	is(BAND, 16);
+	set_sample(&image[0], "id", 7);
 	ok(plan_lerp("od\"d\\"));
 	is(BAND, 12);
 	ok(plan_lerp("n=3"));
@@ -430,6 +467,16 @@ test_merge(void **state)
 	lights(1, 2, NAN);
 	ok(spec_image_set_text(&image[0], "spec:samples", "12", &error));
 	refused_as(plan(SPEC_ARITHMETIC_MERGE), "a.exr: its spec:samples is no int");
+}
+
+static enum spec_status
+plan_over(const char *channel)
+{
+	const struct spec_arithmetic_setup setup = {.operation = SPEC_ARITHMETIC_OVER,
+		.alpha = channel,
+		.kind = SPEC_ROLE_OTHER};
+
+	return plan_setup(&setup);
 }
 
 /* Geometry is the mean over what was met; light layers are worked on as S0. */
@@ -479,11 +526,60 @@ test_geometry(void **state)
 	clear();
 	new_image(SPEC_ROLE_EMISSIVE, 1, 2, channels);
 	new_image(SPEC_ROLE_EMISSIVE, 1, 2, channels);
+	ok(plan(SPEC_ARITHMETIC_MEAN));
+	is("film1.mirror.S0.400nm", 1.5);
+	is("film1.P.Y", (1 * 1 + 2 * 2) / 3.); /* by cover */
+	assert_int_equal(plan_lerp("film1.cover"), SPEC_EUSAGE);
+	assert_non_null(strstr(error.message, "which lerp cannot do"));
+	assert_int_equal(plan_expression("a", SPEC_ROLE_OTHER), SPEC_EUSAGE);
+	assert_non_null(strstr(error.message, "which expr cannot do"));
+	assert_int_equal(plan(SPEC_ARITHMETIC_DIVIDE), SPEC_EUSAGE);
+	assert_non_null(strstr(error.message, "which divide cannot do"));
+	assert_int_equal(plan_over("film1.cover"), SPEC_EUSAGE);
+	assert_non_null(strstr(error.message, "which over cannot do"));
 	refused_as(
 		plan(SPEC_ARITHMETIC_MAX), "a.exr has light layers, which max cannot do");
 	light();
 	new_image(SPEC_ROLE_EMISSIVE, 1, 2, channels);
 	refused_as(plan(SPEC_ARITHMETIC_ADD), "light layers of 0 films and of 0 lamps");
+}
+
+/* Directions have length 1 again, and what not all images have is the first's. */
+static void
+test_directions(void **state)
+{
+	static const char *const channels[] = {"Tan.X", "Tan.Y", "Tan.Z", "I.X", "I.Y",
+		"I.Z", "Ns.X", "Ns.Y", "Ns.Z", "lamp1.D.X", "lamp1.D.Y", "lamp1.D.Z",
+		"lamp1.S0.400nm", "lamp1.S0.500nm", "Q.X", "Q.Y", "Q.Z", "u", "v", NULL};
+	static const char *const vectors[] = {"Tan", "I", "Ns", "lamp1.D"};
+	char name[32];
+
+	(void)state;
+	new_image(SPEC_ROLE_EMISSIVE, 1, 2, channels);
+	new_image(SPEC_ROLE_EMISSIVE, 1, 2, channels);
+	for (size_t i = 0; i < COUNT(vectors); i++) {
+		snprintf(name, sizeof name, "%s.Y", vectors[i]);
+		set_sample(&image[0], name, -3);
+	}
+	ok(plan(SPEC_ARITHMETIC_MEAN));
+	for (size_t i = 0; i < COUNT(vectors); i++) {
+		/* 1, -3, 1 and 2, 2, 2 */
+		snprintf(name, sizeof name, "%s.X", vectors[i]);
+		is(name, 3 / sqrt(19));
+		snprintf(name, sizeof name, "%s.Y", vectors[i]);
+		is(name, -1 / sqrt(19));
+	}
+	is("Q.Z", 1.5);
+	is("u", 1.5);
+	is("v", 1.5);
+	is("lamp1.S0.500nm", 1.5);
+	clear();
+	new_image(SPEC_ROLE_EMISSIVE, 1, 2, &channels[17]);
+	new_image(SPEC_ROLE_EMISSIVE, 1, 2, &channels[18]);
+	ok(plan(SPEC_ARITHMETIC_MEAN));
+	is("u", 1);
+	is("v", 1.5);
+	clear();
 }
 
 static void
@@ -507,6 +603,23 @@ test_expressions(void **state)
 	has_text("spec:quantity", "radiance per nm");
 	assert_true(value_of(BAND) > 0);
 	clear();
+	/* Light in place of reflectance is as the first light is. */
+	reflectance();
+	new_image(SPEC_ROLE_EMISSIVE, 4, 2, NULL);
+	new_image(SPEC_ROLE_EMISSIVE, 4, 2, NULL);
+	ok(spec_image_set_text(&image[1], "spec:quantity", "irradiance", &error));
+	ok(plan_expression("a * b + c", SPEC_ROLE_EMISSIVE));
+	has_text("spec:quantity", "irradiance");
+	is("S3.500,000000nm", 5);
+	clear();
+	set_sample(light(), BAND, 3);
+	ok(plan_expression("a(450)", SPEC_ROLE_OTHER));
+	is(BAND, 2);
+	ok(spec_image_set_text(&image[0], "spec:quantity", "radiance per band", &error));
+	ok(plan_expression("a(400.001)", SPEC_ROLE_OTHER));
+	is(BAND, 1);
+	refused_as(plan_expression("a(450)", SPEC_ROLE_OTHER),
+		"no band at 450 nm, and its values per band are not interpolated");
 	new_image(SPEC_ROLE_OTHER, 0, 0, height);
 	light();
 	refused_as(plan_expression("b", SPEC_ROLE_OTHER), "a.exr: has no spectral channel");
@@ -555,6 +668,7 @@ test_bispectral(void **state)
 {
 	static const char *const off[] = {"T.400,000000nm.500,000000nm", NULL};
 	static const char *const other[] = {"T.500,000000nm.400,000000nm", NULL};
+	static const char *const farther[] = {"T.400,000000nm.600,000000nm", NULL};
 
 	(void)state;
 	new_image(SPEC_ROLE_REFLECTIVE, 1, 2, off);
@@ -566,6 +680,9 @@ test_bispectral(void **state)
 	refused_as(plan(SPEC_ARITHMETIC_MAX), "is bispectral, which max cannot do");
 	new_image(SPEC_ROLE_REFLECTIVE, 1, 2, off);
 	new_image(SPEC_ROLE_REFLECTIVE, 1, 2, other);
+	refused_as(plan(SPEC_ARITHMETIC_MEAN), "b.exr has no channel 'T.400");
+	new_image(SPEC_ROLE_REFLECTIVE, 1, 3, off);
+	new_image(SPEC_ROLE_REFLECTIVE, 1, 3, farther);
 	refused_as(plan(SPEC_ARITHMETIC_MEAN), "b.exr has no channel 'T.400");
 	new_image(SPEC_ROLE_REFLECTIVE, 1, 2, off);
 	reflectance();
@@ -627,6 +744,20 @@ test_mismatches(void **state)
 	ok(plan(SPEC_ARITHMETIC_MULTIPLY));
 	has_text("spec:bins", "350 450 550");
 	clear();
+	/* What is of one kind is in bins or at points, whichever comes first. */
+	reflectance();
+	bins(reflectance(), 350);
+	refused_as(plan(SPEC_ARITHMETIC_MULTIPLY), "a.exr has point samples, b.exr bins");
+	bins(light(), 350);
+	reflectance();
+	bins(reflectance(), 350);
+	refused_as(plan(SPEC_ARITHMETIC_MULTIPLY), "b.exr has point samples, c.exr bins");
+	light();
+	bins(light(), 350);
+	refused_as(plan(SPEC_ARITHMETIC_DIVIDE), "a.exr has point samples, b.exr bins");
+	reflectance();
+	bins(reflectance(), 350);
+	refused_as(plan(SPEC_ARITHMETIC_DIVIDE), "a.exr has point samples, b.exr bins");
 	light();
 	refused_as(plan(SPEC_ARITHMETIC_ADD), "add needs 2 images at least, and 1 is");
 	odd = new_image(SPEC_ROLE_EMISSIVE, 1, 3, NULL);
@@ -682,9 +813,11 @@ main(void)
 		TEST(test_products),
 		TEST(test_quotients),
 		TEST(test_over),
+		TEST(test_alpha),
 		TEST(test_lerp),
 		TEST(test_merge),
 		TEST(test_geometry),
+		TEST(test_directions),
 		TEST(test_expressions),
 		TEST(test_stokes),
 		TEST(test_bispectral),
