@@ -508,12 +508,13 @@ END
   local folder
   folder=$(mktemp -d /dev/shm/formats.XXXXXX)
   specconvert a.exr -o "$folder/a.hsr" && specconvert a.exr -o "$folder/a.csv" &&
-    specconvert a.exr -o "$folder/a.other"
+    specconvert a.exr -o "$folder/a.other" && specconvert D65 -o "$folder/b.other"
   cp "$folder"/* .
   rm -r "$folder"
   [ "$(head -c 10 a.hsr)" = '#?RADIANCE' ]
   [ "$(head -c 13 a.csv)" = wavelength_nm ]
   cmp <(head -c 4 a.exr) <(head -c 4 a.other)
+  specconvert D65 | cmp - b.other
 }
 
 @test "images are not written to a terminal in other formats either" {

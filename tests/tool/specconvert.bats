@@ -341,6 +341,11 @@ last_uints() {
   [[ $stderr = *--crop* ]]
   specconvert --crop 0,0,14,8 --downsample 2 a.exr -o b.exr
   has_line b.exr 'dataWindow (type box2i): (0 0) - (6 3)'
+  # Each of the four sides counts.
+  for window in '16x7 0,0' '16x8 1,0' '15x8 1,0' '16x8 0,1' '16x7 0,1'; do
+    spectral c.exr --size "${window% *}" --data "${window#* }" --grid 500:500:1
+    fails_cleanly specconvert --downsample 2 c.exr -o d.exr
+  done
 }
 
 @test "--downsample gives whole numbers the one that most pixels have" {
@@ -389,6 +394,21 @@ last_uints() {
     cmp file.spd $other.spd
   done
   specconvert illuminants/D65 | cmp - <(specconvert "$ROOT/spectra/illuminants/D65.spd")
+}
+
+@test "what an operand is, its name and its first byte say" {
+  for name in missing.exr missing.tif ./D65 "$PWD/D65"; do
+    fails_cleanly specconvert "$name"
+    [[ $stderr = "specconvert: unable to open '$name': No such file or directory" ]] || complain "$stderr"
+  done
+  printf '\xef\xbb\xbf400 0.1\n700 0.3\n' | specconvert -o marked.spd
+  printf '\n400 0.1\n700 0.3\n' | specconvert - -o blank.spd
+  for file in marked blank; do
+    has_numbers $file.spd '400 0.1' '700 0.3'
+  done
+  fails_cleanly specconvert D65 -o b.png
+  [[ $stderr = *"no image format for '.png'"* ]] || complain "$stderr"
+  no_leftovers . marked.spd blank.spd
 }
 
 @test "--grid, --multiply and --scale work on curves" {
