@@ -90,12 +90,12 @@ enum spec_status spec_images_compare(struct spec_images *result, struct spec_rea
 void spec_images_free(struct spec_images *result);
 
 /*
- * The value that share (0 to 1) of a map's pixels are not above, by nearest rank; NaN of no
+ * The value that percent (0 to 100) of a map's pixels are not above, by nearest rank; NaN of no
  * pixels. *x, *y: the first pixel that has it, from the data window's corner.
  * Error: SPEC_ENOMEM.
  */
 enum spec_status spec_images_percentile(const struct spec_images *result,
-	enum spec_detail_pixel kind, double share, double *value, size_t *x, int *y,
+	enum spec_detail_pixel kind, double percent, double *value, size_t *x, int *y,
 	struct spec_error *error);
 
 /* The mean of a map; NaN of no pixels. */

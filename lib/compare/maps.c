@@ -71,7 +71,7 @@ count_pixels(const struct spec_images *result)
 
 enum spec_status
 spec_images_percentile(const struct spec_images *result, enum spec_detail_pixel kind,
-	double share, double *value, size_t *x, int *y, struct spec_error *error)
+	double percent, double *value, size_t *x, int *y, struct spec_error *error)
 {
 	const float *map = result->map[kind];
 	size_t pixels = count_pixels(result), known = 0, rank, at = 0;
@@ -88,7 +88,8 @@ spec_images_percentile(const struct spec_images *result, enum spec_detail_pixel 
 	if (known > 0) {
 		float found;
 
-		rank = (size_t)ceil(share * (double)known);
+		/* A share of 0.07 is not, and the 7th of 100 would be the 8th. */
+		rank = (size_t)ceil(percent * (double)known / 100);
 		rank = rank < 1 ? 0 : rank > known ? known - 1 : rank - 1;
 		found = select_rank(map, pixels, rank, count);
 		while (map[at] != found)

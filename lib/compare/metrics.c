@@ -22,11 +22,11 @@ const struct spec_metric spec_metrics[SPEC_METRICS_NAMED] = {
 	{"relative", "", SPEC_METRIC_RELATIVE, 0, 0, 0},
 	{"energy", "", SPEC_METRIC_ENERGY, 0, 0, 0},
 	{"sid", "", SPEC_METRIC_MEAN, 0, SPEC_DETAIL_SID, 0},
-	{"sid-max", "", SPEC_METRIC_PERCENTILE, 0, SPEC_DETAIL_SID, 1},
+	{"sid-max", "", SPEC_METRIC_PERCENTILE, 0, SPEC_DETAIL_SID, 100},
 	{"de76", "", SPEC_METRIC_MEAN, 0, SPEC_DETAIL_DE76, 0},
-	{"de76-max", "", SPEC_METRIC_PERCENTILE, 0, SPEC_DETAIL_DE76, 1},
+	{"de76-max", "", SPEC_METRIC_PERCENTILE, 0, SPEC_DETAIL_DE76, 100},
 	{"de94", "", SPEC_METRIC_MEAN, 0, SPEC_DETAIL_DE94, 0},
-	{"de94-max", "", SPEC_METRIC_PERCENTILE, 0, SPEC_DETAIL_DE94, 1},
+	{"de94-max", "", SPEC_METRIC_PERCENTILE, 0, SPEC_DETAIL_DE94, 100},
 };
 
 static const struct {
@@ -103,8 +103,6 @@ enum spec_status
 spec_metric_find(const char *name, size_t length, struct spec_metric *metric,
 	struct spec_error *error)
 {
-	enum spec_status status;
-
 	for (size_t i = 0; i < SPEC_METRICS_NAMED; i++) {
 		*metric = spec_metrics[i];
 		if (strlen(metric->name) == length &&
@@ -118,10 +116,8 @@ spec_metric_find(const char *name, size_t length, struct spec_metric *metric,
 		return spec_error_set(error, SPEC_EUSAGE,
 			"unknown metric '%.*s' (try --help)",
 			(int)(length < 64 ? length : 64), name);
-	status = spec_number_parse(strrchr(metric->name, '-') + 2, 0, 100, "the percentile",
-		&metric->share, error);
-	metric->share /= 100;
-	return status;
+	return spec_number_parse(strrchr(metric->name, '-') + 2, 0, 100, "the percentile",
+		&metric->percent, error);
 }
 
 int
@@ -234,7 +230,7 @@ spec_metric_measure(const struct spec_metric *metric, const struct spec_images *
 
 	*value = (struct spec_metric_value){0};
 	if (metric->kind == SPEC_METRIC_PERCENTILE) {
-		status = spec_images_percentile(result, metric->map, metric->share,
+		status = spec_images_percentile(result, metric->map, metric->percent,
 			&value->value, &value->x, &value->y, error);
 		value->has_place = value->value > 0;
 		return status;

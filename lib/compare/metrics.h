@@ -30,7 +30,7 @@ struct spec_metric {
 	enum spec_metric_kind kind;
 	int larger_is_better;
 	enum spec_detail_pixel map; /* of a mean or a percentile */
-	double share;               /* of a percentile, 0 to 1 */
+	double percent;             /* of a percentile, 0 to 100 */
 };
 
 /* What is printed where no metric is named, and all that have a name of their own. */

@@ -489,6 +489,15 @@ energy     0.5' ] || complain "$answer"
   grep -qE '^de94       1\.5191' <<<"$answer" || complain "$answer"
 }
 
+@test "the largest of a metric is its last percentile" {
+  spectral a.exr --pattern grain
+  spectral b.exr
+  answers 1 specdiff -m sam-max,sid-max,de76-max,de94-max,de2000-max,sid-p100,de76-p100,de94-p100 a.exr b.exr
+  for metric in sid de76 de94; do
+    prints "$(printf '%-10s %s' $metric-max "$(sed -n "s/^$metric-p100 *//p" <<<"$answer")")"
+  done
+}
+
 @test "percentiles are those of the pixels, by nearest rank" {
   spectral a.exr --size 10x1 --grid 500:600:100 --pattern constant:0
   spectral b.exr --size 10x1 --grid 500:600:100
@@ -501,6 +510,15 @@ energy     0.5' ] || complain "$answer"
   prints 'max-p10    0.101 at 0,0'
   answers 0 specdiff --tolerance max-p50=0.1051 a.exr b.exr
   answers 1 specdiff --tolerance max-p50=0.1049 a.exr b.exr
+  # of 100 pixels N percent are N, exactly
+  spectral c.exr --size 100x1 --grid 500:600:100 --pattern constant:0
+  spectral d.exr --size 100x1 --grid 500:600:100
+  answers 1 specdiff --metric max-p7,max-p28,max-p29,max-p57,max-p99 c.exr d.exr
+  prints 'max-p7     0.107 at 6,0'
+  prints 'max-p28    0.128 at 27,0'
+  prints 'max-p29    0.129 at 28,0'
+  prints 'max-p57    0.157 at 56,0'
+  prints 'max-p99    0.199 at 98,0'
   fails_cleanly specdiff --metric max-p101 a.exr b.exr
   fails_cleanly specdiff --metric psnr-p50 a.exr b.exr
   fails_cleanly specdiff --metric max-p a.exr b.exr

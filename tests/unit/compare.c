@@ -585,7 +585,7 @@ static void
 test_percentiles(void **state)
 {
 	enum { ACROSS = 37, DOWN = 23, PIXELS = ACROSS * DOWN, NANS = 5 };
-	static const double shares[] = {0, .001, .25, .5, .501, .95, .999, 1};
+	static const double percents[] = {0, .1, 25, 50, 50.1, 95, 99.9, 100};
 	static float map[PIXELS], sorted[PIXELS];
 	struct spec_images images = {.region = {3, 2, 3 + ACROSS, 2 + DOWN}};
 	uint64_t random = 7;
@@ -610,11 +610,11 @@ test_percentiles(void **state)
 	assert_int_equal(count, PIXELS - NANS);
 	qsort(sorted, count, sizeof *sorted, ascending);
 	images.map[SPEC_DETAIL_SAM] = map;
-	for (size_t i = 0; i < COUNT(shares); i++) {
-		size_t rank = (size_t)ceil(shares[i] * (double)count), at;
+	for (size_t i = 0; i < COUNT(percents); i++) {
+		size_t rank = (size_t)ceil(percents[i] * (double)count / 100), at;
 
-		assert_int_equal(spec_images_percentile(&images, SPEC_DETAIL_SAM, shares[i],
-					 &value, &x, &y, NULL),
+		assert_int_equal(spec_images_percentile(&images, SPEC_DETAIL_SAM,
+					 percents[i], &value, &x, &y, NULL),
 			SPEC_OK);
 		assert_true(value == (double)sorted[rank > 0 ? rank - 1 : 0]);
 		at = (size_t)(y - 2) * ACROSS + (x - 3);
