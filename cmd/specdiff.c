@@ -246,6 +246,20 @@ take(void *state, const char *name, const char *value, struct spec_error *error)
 }
 
 static void
+check_outputs(struct cli *cli, const struct job *job)
+{
+	const char *path[] = {job->settings.output, job->heatmap_path, job->side_path};
+
+	for (int i = 0; i < 3; i++) {
+		for (int j = 0; j < i; j++) {
+			if (path[i] && strcmp(path[i], path[j] ? path[j] : "") == 0)
+				cli_usage(cli, "two outputs would both be written to '%s'",
+					path[i]);
+		}
+	}
+}
+
+static void
 parse(struct cli *cli, struct job *job)
 {
 	struct spec_report *report = &job->report;
@@ -261,6 +275,7 @@ parse(struct cli *cli, struct job *job)
 		cli_usage(cli, "only one of the images can come from standard input");
 	if (report->exact && job->setup.resample)
 		cli_usage(cli, "--exact and --resample exclude each other");
+	check_outputs(cli, job);
 	for (size_t i = 0; i < SPEC_METRICS_USUAL && !job->any_chosen; i++)
 		report->metric[i].shown = 1;
 }

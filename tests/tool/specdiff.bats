@@ -828,6 +828,10 @@ ppm_height() {
   fails_cleanly specdiff --heatmap map.png --heatmap-metric de94 far.exr far.exr
   fails_cleanly specdiff --side-by-side map.png far.exr far.exr
   answers 0 specdiff --heatmap map.png far.exr far.exr
+  fails_cleanly specdiff --heatmap - a.exr a.exr
+  [[ $stderr = *"two outputs would both be written to '-'" ]]
+  fails_cleanly specdiff --heatmap map.png --side-by-side map.png a.exr a.exr
+  fails_cleanly specdiff -o map.png --side-by-side map.png a.exr a.exr
   fails_cleanly specdiff --heatmap nowhere/map.png a.exr a.exr
   no_leftovers . a.exr far.exr map.png
   # images that cannot be measured leave no picture
