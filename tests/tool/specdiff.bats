@@ -113,6 +113,19 @@ de2000-max 0' ] || complain "$answer"
   same a.exr b.exr
 }
 
+@test "bands and edges of bins nearer than 0.001 nm are the same" {
+  spectral a.exr --channel S0.500,0nm --channel S0.600,0nm
+  spectral b.exr --channel S0.500,0009nm --channel S0.600,0nm
+  same a.exr b.exr
+  spectral b.exr --channel S0.500,0011nm --channel S0.600,0nm
+  answers 1 specdiff a.exr b.exr
+  spectral a.exr --grid 500:540:20 --attribute 'spec:bins=490 510 530 550'
+  spectral b.exr --grid 500:540:20 --attribute 'spec:bins=490 510.0009 530 550'
+  same a.exr b.exr
+  spectral b.exr --grid 500:540:20 --attribute 'spec:bins=490 510.0011 530 550'
+  answers 1 specdiff a.exr b.exr
+}
+
 @test "attributes that say nothing about the samples make no difference" {
   spectral a.exr --attribute 'owner=somebody'
   spectral b.exr --attribute 'comments=something'
@@ -259,6 +272,13 @@ de2000-max 0' ] || complain "$answer"
   always_differ a.exr b.exr
 }
 
+@test "whole numbers on one side of a channel always differ" {
+  spectral a.exr --size 2x2 --uint Z
+  spectral b.exr --size 2x2 --extra Z
+  always_differ a.exr b.exr
+  prints "channel 'Z' holds whole numbers on one side"
+}
+
 @test "ids are printed as they are" {
   spectral a.exr --size 1x257 --grid 500:520:20 --uint-id --compression none
   cp a.exr b.exr
@@ -274,6 +294,16 @@ de2000-max 0' ] || complain "$answer"
   last_sample b.exr '\xfe\xff\xff\xff'
   answers 1 specdiff a.exr b.exr
   answers 1 specdiff b.exr a.exr
+}
+
+@test "metrics are printed under other display windows, and not under other data windows" {
+  spectral a.exr --display 0,0,20,20
+  spectral b.exr --display 0,0,20,21
+  answers 1 specdiff -m max a.exr b.exr
+  prints 'max        0'
+  spectral b.exr --display 0,0,20,20 --data 1,0
+  answers 1 specdiff -m max a.exr b.exr
+  [ "$answer" = 'data windows differ: 0,0,16,8 and 1,0,17,8' ] || complain "$answer"
 }
 
 # Numbers in closed form
@@ -298,6 +328,12 @@ de2000-max 0' ] || complain "$answer"
   prints 'psnr       9.54243 dB' # 20 log10(1.5 / 0.5)
   answers 1 specdiff --metric psnr --peak 50 a.exr b.exr
   prints 'psnr       40 dB' # 20 log10(50 / 0.5)
+  # of -4: 20 log10(4 / (5 / sqrt(16 * 8 * 16)))
+  spectral a.exr --pattern constant:1 --compression none
+  cp a.exr b.exr
+  last_sample a.exr '\x00\x00\x80\xc0'
+  answers 1 specdiff --metric psnr a.exr b.exr
+  prints 'psnr       31.1751 dB'
 }
 
 @test "one sample off by 1 of 2048: rmse 1/sqrt(2048), and its place" {
@@ -343,6 +379,27 @@ gfc        0.714073' ] || complain "$answer"
   [ "$answer" = 'sam        3.14159 rad
 sam-max    3.14159 rad at 0,0
 gfc        1' ] || complain "$answer"
+}
+
+@test "two spectra of zeros fit and have no angle; zeros and another do not, at pi/2" {
+  spectral a.exr --pattern constant:0
+  spectral b.exr --pattern constant:1
+  answers 0 specdiff -m sam,gfc a.exr a.exr
+  [ "$answer" = 'sam        0 rad
+gfc        1' ] || complain "$answer"
+  answers 1 specdiff -m sam,gfc a.exr b.exr
+  [ "$answer" = 'sam        1.5708 rad
+gfc        0' ] || complain "$answer"
+}
+
+@test "what is reradiated counts in max alone" {
+  spectral a.exr --size 1x1 --channel T.500nm --channel T.600nm --channel T.600nm.500nm \
+    --pattern constant:0 --compression none
+  cp a.exr b.exr
+  last_sample b.exr '\x00\x00\x80\x3f'
+  answers 1 specdiff -m rmse,max a.exr b.exr
+  [ "$answer" = "rmse       0
+max        1 at 0,0 in 'T.600nm.500nm': 0 and 1" ] || complain "$answer"
 }
 
 @test "two greys are as far apart as CIEDE2000 has it" {
@@ -468,6 +525,23 @@ energy     0.5' ] || complain "$answer"
   prints 'energy     0.0454545'
 }
 
+@test "the energy of points ends half-way between them, that of bands is theirs, and S0's alone" {
+  # widths 100, 150 and 200 nm; 0.5 more in the last
+  for quantity in nm band; do
+    spectral a.exr --size 1x1 --channel S0.500nm --channel S0.600nm --channel S0.800nm \
+      --quantity "radiance per $quantity" --pattern constant:1 --compression none
+    cp a.exr b.exr
+    last_sample b.exr '\x00\x00\xc0\x3f'
+    answers 1 specdiff -m energy a.exr b.exr
+    case $quantity in nm) prints 'energy     0.222222' ;; *) prints 'energy     0.166667' ;; esac
+  done
+  spectral a.exr --size 1x1 --kind stokes --pattern constant:1 --compression none
+  cp a.exr b.exr
+  last_sample b.exr '\x00\x00\xc0\x3f'
+  answers 1 specdiff -m energy a.exr b.exr
+  prints 'energy     0'
+}
+
 @test "the information divergence of (0.001, 0.101) and (1, 1) is 2.262314" {
   # p = (1, 101) / 102, q = (1, 1) / 2: the sum of (p - q) ln(p / q)
   spectral a.exr --size 1x1 --grid 500:600:100
@@ -478,6 +552,34 @@ energy     0.5' ] || complain "$answer"
   spectral dark.exr --size 1x1 --grid 500:600:100 --pattern constant:0
   answers 1 specdiff --metric sid a.exr dark.exr
   prints 'sid        inf'
+}
+
+@test "the information divergence takes what is below 0 for 0" {
+  spectral a.exr --size 1x1 --grid 500:600:100 --pattern constant:1 --compression none
+  cp a.exr b.exr
+  last_sample a.exr '\x00\x00\x80\xbf'
+  last_sample b.exr '\x00\x00\x00\x00'
+  answers 1 specdiff -m sid,max a.exr b.exr
+  prints 'sid        0'
+}
+
+@test "colours of light: white is the illuminant's, and 2^-EV; values per band are those of their nm" {
+  spectral one.exr --kind T --grid 360:830:5 --pattern constant:1
+  specconvert --illuminate A one.exr -o a.exr
+  specconvert --scale 0.5 a.exr -o b.exr
+  # greys beside the white of A, where CIE94 is CIELAB's distance; not beside that of D65
+  answers 1 specdiff -m de76,de94 -e -7 --illuminant A a.exr b.exr
+  awk '{ d[NR] = $2 } END { exit !(d[1] > 10 && (d[1] - d[2]) ^ 2 < 1e-4) }' <<<"$answer" || complain "$answer"
+  answers 1 specdiff -m de76,de94 -e -7 a.exr b.exr
+  awk '{ d[NR] = $2 } END { exit !(d[1] - d[2] > 1) }' <<<"$answer" || complain "$answer"
+  spectral a.exr --grid 360:830:5 --pattern constant:0.2
+  spectral b.exr --grid 360:830:5 --pattern constant:0.1
+  answers 1 specdiff -m de2000 -e 1 a.exr b.exr
+  wanted=$answer
+  spectral a.exr --grid 360:830:5 --pattern constant:2 --quantity 'radiance per band'
+  spectral b.exr --grid 360:830:5 --pattern constant:1 --quantity 'radiance per band'
+  answers 1 specdiff -m de2000 a.exr b.exr
+  awk -v wanted="${wanted##* }" '{ exit !(wanted > 10 && ($2 / wanted - 1) ^ 2 < 1e-8) }' <<<"$answer" || complain "$answer" "$wanted"
 }
 
 @test "two greys are as far apart in CIELAB and CIE94 as their lightness" {
@@ -565,6 +667,30 @@ S0.600,000000nm 0.101501 0.1015 0.102' ] || complain "$answer"
     '[false,false,2,null]' ] || complain "$answer"
 }
 
+@test "--json: what is not finite, bits, another grid and the noise" {
+  spectral a.exr
+  spectral b.exr --pattern nan:2,3,4 --pattern inf:1,5,0
+  answers 1 specdiff --json -m all,max-p50 --exact --same-within 3sigma a.exr b.exr
+  [ "$(jq -c '[(.metrics | length), .metrics.max.infinite, .metrics.max.not_finite, .metrics.max.at, .metrics.max.channel,
+    .metrics.psnr.infinite, .metrics["gfc-min"].infinite, .exact.differing, .exact.at,
+    .images[0].file, .images[0].width, .images[0].height, .images[0].low_nm, .images[0].high_nm, .notes]' <<<"$answer")" = \
+    '[19,"+",2,[2,3],"S0.480,000000nm","-","-",2,[2,3],"a.exr",16,8,400,700,[]]' ] || complain "$answer"
+  spectral b.exr --pattern constant:1
+  answers 1 specdiff --json --exact --same-within 3sigma a.exr b.exr
+  [ "$(jq -c '[.exact.differing, .exact.at, .exact.channel, .exact.b, .same_within.kind, .same_within.channel, .same_within.wavelength_nm,
+    .same_within.at, .same_within.statistics, .same_within.alarm > 0.00269, .same_within.alarm < 0.0027,
+    .same_within.mean_difference < 0]' <<<"$answer")" = \
+    '[2048,[0,0],"S0.400,000000nm",1,"tile","S0.400,000000nm",400,[0,0],48,true,true,true]' ] || complain "$answer"
+  specconvert --grid 410:690:10 a.exr -o fine.exr
+  answers 0 specdiff --json --resample -t max=2e-7 a.exr fine.exr
+  [ "$(jq -c .notes <<<"$answer")" = '["resampled to the first'"'"'s grid: 420 to 680 nm in 14 bands of 16 and 29"]' ] || complain "$answer"
+  # values per band are on no other grid
+  spectral a.exr --quantity 'radiance per band'
+  spectral fine.exr --grid 410:690:10 --quantity 'radiance per band'
+  answers 1 specdiff --json --resample a.exr fine.exr
+  [ "$(jq -c .measured <<<"$answer")" = false ] || complain "$answer"
+}
+
 # Other grids, formats and pictures
 
 @test "different grids are refused with both named, and compared over their overlap on request" {
@@ -632,6 +758,24 @@ S0.600,000000nm 0.101501 0.1015 0.102' ] || complain "$answer"
   grep -qE "^max        1 at 0,0 in 'G': 0 and 1" <<<"$answer" || complain "$answer"
 }
 
+@test "pictures have the colours of their chromaticities, at the exposure that is given" {
+  spectral a.exr --kind T
+  spectral b.exr --kind T --pattern constant:0.4
+  for side in a b; do
+    spec2rgb $side.exr -o $side.srgb.exr
+    spec2rgb -e -3 $side.exr -o $side.dark.exr
+    spec2rgb --space p3 $side.exr -o $side.p3.exr
+  done
+  answers 1 specdiff -m de76 a.srgb.exr b.srgb.exr
+  wanted=${answer##* }
+  for pair in 'dark -e 3' 'p3 -e 0'; do
+    # shellcheck disable=SC2086 # several words
+    answers 1 specdiff -m de76 ${pair#* } "a.${pair%% *}.exr" "b.${pair%% *}.exr"
+    awk -v wanted="$wanted" '{ exit !(wanted > 10 && ($2 / wanted - 1) ^ 2 < 1e-8) }' <<<"$answer" ||
+      complain "$pair: $answer instead of $wanted"
+  done
+}
+
 # Regions
 
 @test "--crop: what lies outside does not count" {
@@ -667,6 +811,21 @@ S0.600,000000nm 0.101501 0.1015 0.102' ] || complain "$answer"
   spectral small.exr --size 8x8 --channel Y
   fails_cleanly specdiff --mask small.exr a.exr b.exr
   fails_cleanly specdiff --mask nothing a.exr b.exr
+}
+
+@test "--mask: the one channel of a file, whole numbers of one, and the first's own by its name" {
+  spectral a.exr --size 4x2
+  spectral b.exr --size 4x2 --pattern inf:2,1,3
+  spectral one.exr --size 4x2 --channel mask --pattern constant:1 --compression none
+  answers 1 specdiff --mask one.exr a.exr b.exr
+  spectral ids.exr --size 4x2 --channel Z --uint id
+  answers 1 specdiff -m max-p100 --mask ids.exr:id=65538 a.exr b.exr
+  prints 'max-p100   inf at 2,1'
+  answers 0 specdiff --mask ids.exr:id=65539 a.exr b.exr
+  fails_cleanly specdiff --mask ids.exr a.exr b.exr
+  [[ $stderr = *"ids.exr: which of its 2 channels is the mask? (--mask FILE:CHANNEL)" ]]
+  fails_cleanly specdiff --mask ids.exr:Z=1 a.exr b.exr
+  [[ $stderr = *"its channel 'Z' holds no whole numbers (UINT)" ]]
 }
 
 # Bit for bit
@@ -820,6 +979,33 @@ ppm_height() {
   [ "$(ppm_pixel both.ppm 101 3)" = '255 255 255' ]
 }
 
+@test "--heatmap: de2000 unless another is named; gfc from 1 down" {
+  spectral a.exr --size 300x4 --pattern constant:1 --compression none
+  cp a.exr b.exr
+  last_sample b.exr '\x00\x00\x00\x40'
+  for metric in gfc max de2000; do
+    answers 1 specdiff --heatmap $metric.ppm --heatmap-metric $metric a.exr b.exr
+    [ "$(ppm_pixel $metric.ppm 0 0)" = '68 1 84' ] || complain "$metric: $(ppm_pixel $metric.ppm 0 0)"
+    [ "$(ppm_pixel $metric.ppm 299 3)" = '253 231 37' ] || complain "$metric: $(ppm_pixel $metric.ppm 299 3)"
+  done
+  answers 1 specdiff --heatmap usual.ppm a.exr b.exr
+  cmp usual.ppm de2000.ppm
+  run ! cmp -s usual.ppm max.ppm
+}
+
+@test "--side-by-side: adapted from the white of the illuminant" {
+  spectral a.exr --kind T --size 100x4
+  spectral b.exr --kind T --size 100x4 --pattern constant:0.5
+  answers 1 specdiff --side-by-side both.ppm --illuminant A --observer 1964 a.exr b.exr
+  for side in a b; do
+    spec2rgb --illuminant A --observer 1964 --adapt bradford $side.exr -o $side.ppm
+  done
+  for x in 0 50 99; do
+    [ "$(ppm_pixel both.ppm $x 2)" = "$(ppm_pixel a.ppm $x 2)" ]
+    [ "$(ppm_pixel both.ppm $((x + 104)) 2)" = "$(ppm_pixel b.ppm $x 2)" ]
+  done
+}
+
 @test "pictures: a format that is not known, colours that are not there, a full device" {
   spectral a.exr
   fails_cleanly specdiff --heatmap map.xyz a.exr a.exr
@@ -882,6 +1068,21 @@ ppm_height() {
     fails_cleanly specdiff --tolerance "max=$value" a.exr a.exr
   done
   fails_cleanly specdiff --tolerance max a.exr a.exr
+}
+
+@test "numbers outside of their ranges are refused" {
+  spectral a.exr
+  for option in '--peak 0' '--peak -1' '--peak 1e301' '--heatmap-max 0' '--heatmap-max 1e301' '-e 100.1' '-e -101' \
+    '-t max=1e301' '--same-within 0.09' '-m max-p-1' '--crop 0,0,0,1'; do
+    # shellcheck disable=SC2086 # several words
+    fails_cleanly specdiff $option a.exr a.exr
+  done
+  fails_cleanly specdiff --exact --resample a.exr a.exr
+  answers 0 specdiff -t max=1e300 --peak 1e300 -e 100 a.exr a.exr
+  spectral big.exr --size 300x2000 --grid 500:600:100 --pattern constant:1 --compression none
+  answers 0 specdiff --limit memory=4M -m max-p50 big.exr big.exr
+  fails_cleanly specdiff --limit memory=4M -m max-p50,mae-p50 big.exr big.exr
+  [[ $stderr = *'2 values for each of 600000 pixels are more than the limit memory=4194304 (--limit)' ]]
 }
 
 @test "-o is not passed over: the answer goes there, or the option is refused" {
