@@ -122,7 +122,7 @@ quickly() {
 
 @test "a track or a pit of more than 1 cm is refused, and any other quickly done" {
   layers --scene disc --grid 500:600:100 -o a.exr
-  for distance in 11mm 1000m 1e30m; do
+  for distance in 10.1mm 11mm 1000m 1e30m; do
     fails_cleanly specdisc --orders --track $distance
     fails_cleanly specdisc --track $distance a.exr -o b.exr
     fails_cleanly specdisc --pit $distance a.exr -o b.exr
@@ -757,6 +757,7 @@ negated() {
 }
 
 @test "--orders takes --track and grids" {
+  [ "$(specdisc --orders --grid 500.12345:500.12345:1 | awk '$1 == 0 { print $2 }')" = 500.12345 ]
   [ "$(specdisc --orders --track 1mm --grid 500:500:1 | grep -vc '^#')" -eq 4001 ]
   [ "$(specdisc --orders --preset bluray | grep -vc '^#')" -eq 81 ]
 }

@@ -167,6 +167,41 @@ light_of() {
   holds '.edges_nm == [range(390; 711; 20)] and .unit == "W m^-2 sr^-1"' specinfo --json a.exr
 }
 
+@test "sizes, pixel aspects and what is too long for a line" {
+  spectral a.exr --size 600x60 --grid 380:780:5 --compression none
+  prints '  size          600 x 60 pixels, 11.1 MiB uncompressed' specinfo a.exr
+  holds '.bytes == 600 * 60 * 81 * 4 and .pixel_aspect_ratio == 1' specinfo --json a.exr
+  run ! grep -q aspect <(specinfo a.exr)
+  for number in {10..40}; do
+    many+=(--extra "C$number")
+  done
+  spectral b.exr --size 4x2 --half --attribute "owner=$(printf 'x%.0s' {1..70})" --extra Zebra "${many[@]}"
+  exrstdattr -pixelAspectRatio 1.25 b.exr c.exr
+  prints '  pixel aspect  1.25' specinfo c.exr
+  holds '.pixel_aspect_ratio == 1.25 and .bytes == 4 * 2 * (16 * 2 + 32 * 4)' specinfo --json c.exr
+  prints "                owner                  $(printf 'x%.0s' {1..64}) ... (70 bytes)" specinfo c.exr
+  prints "  channels      float:$(printf ' C%s' {10..25}) and 16 more" specinfo c.exr
+}
+
+@test "quantities and their units" {
+  for quantity in transmittance absorptance 'reflectance factor'; do
+    spectral a.exr --kind T --quantity "$quantity"
+    prints "  quantity      $quantity [1]" specinfo a.exr
+    holds '.unit == "1"' specinfo --json a.exr
+  done
+  spectral a.exr --quantity irradiance
+  prints '  quantity      irradiance' specinfo a.exr
+}
+
+@test "what stands for the bands" {
+  spectral a.exr
+  holds '.representation == null' specinfo --json a.exr
+  specconvert --to fourier:5 a.exr -o b.exr
+  prints '  stored as     fourier 5 400 700' specinfo b.exr
+  prints '  bands         16, 400..700 nm by 20 nm, float' specinfo b.exr
+  holds '.representation == "fourier 5 400 700" and .bands == 16' specinfo --json b.exr
+}
+
 @test "grids: irregular, a single band, three decimals" {
   spectral a.exr --channel S0.400,000000nm --channel S0.410,000000nm --channel S0.700,000000nm
   prints '  bands         3, 400..700 nm, irregular, float' specinfo a.exr
@@ -1033,6 +1068,20 @@ END
   checks 0 d.exr
 }
 
+@test "finding: transmittance and absorptance above 1" {
+  for quantity in transmittance absorptance; do
+    spectral a.exr --size 2x1 --grid 400:500:100 --kind T --quantity $quantity --pattern constant:1.25
+    checks 1 a.exr "warning: T.400,000000nm at 0,0: is a $quantity above 1 (the most is 1.25), the first of 4 such samples in 2 channels"
+  done
+}
+
+@test "finding: NaN and infinities in layers" {
+  spectral a.exr --size 2x1 --channel S0.400,000000nm --extra through.S0.400,000000nm --extra lamp1.S0.400,000000nm \
+    --extra lamp1.D.X --extra lamp1.D.Y --extra lamp1.D.Z --pattern constant:1 --pattern nan:1,0,1 --pattern inf:0,0,2
+  checks 1 a.exr 'warning: through.S0.400,000000nm at 1,0: is NaN, the first of 1 such samples in 1 channels' \
+    'warning: lamp1.S0.400,000000nm at 0,0: is infinite, the first of 1 such samples in 1 channels'
+}
+
 @test "finding: negative light in layers" {
   spectral a.exr --size 1x1 --channel S0.400,000000nm --extra through.S0.400,000000nm --pattern constant:-1
   checks 1 a.exr 'warning: S0.400,000000nm at 0,0: is negative (the least is -1), the first of 2 such samples in 2 channels'
@@ -1045,6 +1094,29 @@ END
   done
   spectral a.exr --size 3x2 "${names[@]}" --attribute polarisationHandedness=left
   checks 1 a.exr 'warning: S0.500,000000nm at 0,0: is less than the length of S1, S2, S3, the first of 6 such samples'
+}
+
+@test "what is off by rounding alone is no finding: polarisation, cosines, coverage" {
+  spectral a.exr --kind stokes --size 1x1 --grid 500:500:1 --attribute polarisationHandedness=left
+  speccomp --no-history -e 'stokes == 0 ? 1 : stokes == 3 ? 1.00005 : 0' a.exr -o b.exr
+  checks 0 b.exr
+  speccomp --no-history -e 'stokes == 0 ? 1 : stokes == 3 ? -1.0002 : 0' a.exr -o b.exr
+  checks 1 b.exr 'warning: S0.500,000000nm at 0,0: is less than the length of S1, S2, S3, the first of 1 such samples'
+  spectral c.exr --size 1x1 --channel S0.400,000000nm --extra cosine --pattern constant:1.0009
+  checks 0 c.exr
+  spectral c.exr --size 1x1 --channel S0.400,000000nm --extra cosine --pattern constant:1.0011
+  checks 1 c.exr 'warning: cosine: reaches from 1.0011 to 1.0011, which no cosine does'
+  spectral d.exr --size 1x1 --channel S0.400,000000nm --extra A --pattern constant:1.000005
+  checks 0 d.exr
+  spectral d.exr --size 1x1 --channel S0.400,000000nm --extra A --pattern constant:1.00002
+  checks 1 d.exr 'warning: A at 0,0: is a coverage above 1 (the most is 1.00002), the first of 1 such samples in 1 channels'
+}
+
+@test "finding: coverage and cosines of films" {
+  spectral a.exr --size 1x1 --channel S0.400,000000nm --extra film1.mirror.S0.400,000000nm --extra film1.cosine \
+    --extra film1.cover --pattern constant:1.5
+  checks 1 a.exr 'warning: film1.cover at 0,0: is a coverage above 1 (the most is 1.5), the first of 1 such samples in 1 channels' \
+    'warning: film1.cosine: reaches from 1.5 to 1.5, which no cosine does'
 }
 
 @test "finding: coverage beyond 0 to 1, cosines beyond 1" {

@@ -48,6 +48,51 @@ static const struct spec_disc_bands *const all_bands[BANDS_KINDS] = {
 
 /* ---- presets and factors ---- */
 
+/* The table of specdisc(1), by its rows; a record, which has no pits, uses nothing of a dash. */
+static void
+test_table(void **state)
+{
+	static const char *const names[] = {"cd", "dvd", "bluray", "vinyl"};
+	static const struct {
+		const char *name;
+		size_t offset;
+		double value[4];
+	} rows[] = {
+#define ROW(member) #member, offsetof(struct spec_disc, member)
+		{ROW(track_nm), {1600, 740, 320, 100000}},
+		{ROW(pit_nm), {2400, 1400, 506, 0}},
+		{ROW(pit_width_nm), {600, 320, 130, 0}},
+		{ROW(pit_depth_nm), {125, 103, 64, 0}},
+		{ROW(index), {1.58, 1.58, 1.58, 1.54}},
+		{ROW(groove_scale), {.005, .005, .005, .04}},
+		{ROW(strip_height), {1, 1, 1, 0}},
+		{ROW(strip_floor), {.01, .01, .01, 1}},
+		{ROW(main_scale_nm), {1000, 1000, 1000, 0}},
+		{ROW(main_floor_nm), {0}},
+		{ROW(groove_decay), {10, 10, 10, 10}},
+		{ROW(groove_exponent), {2, 2, 2, 2}},
+		{ROW(side_width_rad), {3.14, 3.14, 3.14, 3.14}},
+		{ROW(main_width_rad), {.4, .4, .4, .4}},
+		{ROW(specular), {50, 50, 50, 0}},
+		{ROW(specular_exponent), {10000, 10000, 10000, 0}},
+		{ROW(diffuse), {.001, .001, .001, 0}},
+#undef ROW
+	};
+
+	(void)state;
+	for (size_t i = 0; i < COUNT(names); i++) {
+		struct spec_disc disc = disc_named(names[i]);
+
+		for (size_t row = 0; row < COUNT(rows); row++) {
+			double value;
+
+			memcpy(&value, (const char *)&disc + rows[row].offset,
+				sizeof value);
+			near(value, rows[row].value[i], 0, rows[row].name);
+		}
+	}
+}
+
 static void
 test_presets(void **state)
 {
@@ -942,6 +987,7 @@ int
 main(void)
 {
 	const struct CMUnitTest tests[] = {
+		cmocka_unit_test(test_table),
 		cmocka_unit_test(test_presets),
 		cmocka_unit_test(test_pins),
 		cmocka_unit_test(test_factors),
