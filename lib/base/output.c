@@ -178,7 +178,7 @@ open_named(struct spec_output *output, struct spec_error *error)
 		output->terminal = isatty(output->fd);
 		return SPEC_OK;
 	}
-	if (access(output->path, W_OK) != 0 && errno != ENOENT)
+	if (access(output->path, W_OK) != 0 && (errno != ENOENT || !*output->path))
 		return spec_error_system(
 			error, errno, "unable to write '%s'", output->path);
 	resolved = resolve(output, error);

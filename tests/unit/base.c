@@ -616,6 +616,9 @@ test_output_refused(void **state)
 	assert_int_equal(
 		spec_output_open(&output, fixture->folder, &fixture->error), SPEC_EIO);
 	assert_non_null(strstr(fixture->error.message, "is a directory"));
+	assert_int_equal(spec_output_open(&output, "", &fixture->error), SPEC_EIO);
+	assert_string_equal(
+		fixture->error.message, "unable to write '': No such file or directory");
 	snprintf(path, sizeof path, "%s/no/such", fixture->folder);
 	assert_int_equal(spec_output_open(&output, path, &fixture->error), SPEC_EIO);
 	assert_non_null(strstr(fixture->error.message, "No such file"));
