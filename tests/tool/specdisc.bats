@@ -542,6 +542,17 @@ negated() {
   pixel_holds b.exr d.exr 0,0 'is("S0.500,000000nm", from["S0.500,000000nm"])'
 }
 
+@test "where the disc does not cover, nothing is added, whatever the lamp's light" {
+  disc_image a.exr --channel cover --uint-id --compression none --size 2x1
+  poke a.exr "$(sample_at a.exr cover 1 2)" '\0\0\0\0'
+  specdisc a.exr -o b.exr
+  pixel_holds a.exr b.exr 0,0 'if (to["S0.500,000000nm"] == from["S0.500nm"]) wrong("nothing")'
+  pixel_holds a.exr b.exr 1,0 'is("S0.500,000000nm", from["S0.500nm"])'
+  # and it is no surface that a disc is missing for
+  specdisc --mask 7 a.exr -o c.exr 2>said
+  [ "$(cat said)" = 'specdisc: warning: no disc is for the id of 1 pixel: left out' ] || complain "$(cat said)"
+}
+
 @test "the normal is Ns, and N where there is none" {
   disc_image n.exr --size 1x1
   disc_image ns.exr --size 1x1 --channel Ns.Z --channel Ns.X --channel Ns.Y
