@@ -191,6 +191,10 @@ ratio() {
   specconvert --per nm band.exr -o back.exr
   has_line back.exr 'spec:quantity (type string): "radiance per nm"'
   specdiff --tolerance max=1e-7 a.exr back.exr
+  # A preview would show other values.
+  spectral seen.exr --size 2x2 --grid 500:510:10 --extra R --extra G --extra B
+  specconvert -q --per band seen.exr -o unseen.exr
+  has_channels unseen.exr S0.500,000000nm S0.510,000000nm
   # Interpolated values are densities.
   specconvert --per nm --grid 505:505:1 band.exr -o between.exr
   specconvert --grid 505:505:1 a.exr -o wanted.exr

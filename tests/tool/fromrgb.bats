@@ -69,6 +69,9 @@ largest_off() {
   [ "$(exrheader t.exr | grep -c '16-bit')" -eq 0 ]
   specconvert -q --half --from-rgb sigmoid rgb.exr -o half.exr
   [ "$(exrheader half.exr | grep -c 'T.*16-bit')" -eq 81 ]
+  oiiotool rgb.exr -d half -o sixteen.exr
+  specconvert -q --from-rgb basis sixteen.exr -o half.exr
+  [ "$(exrheader half.exr | grep -c 'T.*16-bit')" -eq 81 ]
 }
 
 @test "the same bits for every number of threads, and through a pipe" {
@@ -135,6 +138,12 @@ largest_off() {
   poke rgb.exr $(($(attribute_at rgb.exr chromaticities chromaticities) + 8)) '\x52\xb8\x9e\x3e'
   fails_cleanly specconvert --from-rgb basis rgb.exr -o x.exr
   [[ $stderr = *'rgb.exr: its primaries or its white are not those of Rec. 709 (green x is 0.31 instead of 0.3)' ]]
+  # What files round to three digits is Rec. 709 still; of spectra the attribute says nothing.
+  exrstdattr -chromaticities 0.64 0.33 0.3009 0.6 0.15 0.06 0.3127 0.329 rgb.exr near.exr
+  specconvert -q --from-rgb basis near.exr -o t.exr
+  run ! grep chromaticities <<<"$(exrheader t.exr)"
+  exrstdattr -chromaticities 0.64 0.33 0.3011 0.6 0.15 0.06 0.3127 0.329 rgb.exr far.exr
+  fails_cleanly specconvert -q --from-rgb basis far.exr -o x.exr
 }
 
 @test "options that do not go together" {

@@ -645,6 +645,18 @@ specconvert --crop 0,0,1,1 b.exr -o c.exr  # spectools $version
   exrheader b.exr | grep -q 'Z, 32-bit'
 }
 
+@test "new bands are HALF where the old ones are, and bands of whole numbers become FLOAT" {
+  spectral half.exr --half --extra Z
+  specconvert --grid 410:610:100 half.exr -o b.exr
+  [ "$(exrheader b.exr | grep -c '^    S0.*16-bit floating-point')" -eq 3 ]
+  spectral whole.exr --size 2x1 --grid 500:500:1 --uint S0.600,0nm
+  specconvert whole.exr -o c.exr
+  exrheader c.exr | grep -q 'S0.600,000000nm, 32-bit floating-point'
+  has_numbers c.exr '500 0.001 0.002' '600 0 1'
+  specconvert --half whole.exr -o d.exr
+  exrheader d.exr | grep -q 'S0.600,000000nm, 16-bit floating-point'
+}
+
 @test "every number of threads writes the same bytes" {
   spectral a.exr --size 61x67 --pattern grain --uint-id
   for compression in none zip piz; do

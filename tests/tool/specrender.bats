@@ -326,6 +326,19 @@ wrong_at() {
   has_line h.exr 'spec:samples (type int): 16'
 }
 
+@test "a path has five scatterings, unless the scene says how many" {
+  scene a.pbrt WorldBegin 'AreaLightSource "diffuse" "float L" 1' 'Material "diffuse" "float reflectance" 1' \
+    ReverseOrientation 'Shape "sphere" "float radius" 9'
+  render a.pbrt -o usual.exr
+  for depth in 4 5 6; do
+    sed "s/^WorldBegin/Integrator \"path\" \"integer maxdepth\" $depth WorldBegin/" a.pbrt >b.pbrt
+    render b.pbrt -o $depth.exr
+  done
+  cmp usual.exr 5.exr
+  run ! cmp usual.exr 4.exr
+  run ! cmp usual.exr 6.exr
+}
+
 @test "--seed chooses other random numbers, and the same ones again" {
   some a.pbrt
   render a.pbrt -o b.exr

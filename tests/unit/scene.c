@@ -371,13 +371,15 @@ what_makes_no_difference_is_a_warning(void **state)
 		"t.pbrt:4:1: PixelFilter \"gaussian\" is done as PixelFilter \"box\"",
 		"t.pbrt:5:1: PixelFilter \"box\" is done as PixelFilter \"box\"",
 		"t.pbrt:6:1: Option \"pixel-stats\" is not used",
+		"t.pbrt:7:44: 'nbuckets' of Film \"spectral\" is not used: ",
 	};
 	struct spec_scene scene = parse(
 		"Camera \"perspective\" \"float shutteropen\" 0\n"
 		"Film \"rgb\" \"float iso\" 100 \"string sensor\" \"nikon_d850\"\n"
 		"Integrator \"volpath\"\nPixelFilter \"gaussian\" \"float xradius\" 2\n"
 		"PixelFilter \"box\" \"float xradius\" 2\nOption \"pixel-stats\" true\n"
-		"Film \"rgb\" \"float iso\" 200 WorldBegin");
+		"Film \"rgb\" \"float iso\" 200 Film \"spectral\" \"integer nbuckets\" 4 "
+		"WorldBegin");
 
 	(void)state;
 	assert_int_equal(scene.warnings, COUNT(warnings));
@@ -421,6 +423,9 @@ faults_of_settings_have_places(void **state)
 			"t.pbrt:1:22: 'screenwindow' of Camera \"perspective\" is not x0"},
 		{SPEC_EUNSUPPORTED, "Film \"rgb\" \"float cropwindow\" [0 1 0 1]",
 			"t.pbrt:1:12: 'cropwindow' of Film \"rgb\" is not supported: the "
+			"renderer's option --crop crops"},
+		{SPEC_EUNSUPPORTED, "Film \"rgb\" \"integer pixelbounds\" [0 1 0 1]",
+			"t.pbrt:1:12: 'pixelbounds' of Film \"rgb\" is not supported: the "
 			"renderer's option --crop crops"},
 		{SPEC_EFORMAT, "Film \"image\"", "t.pbrt:1:1: there is no Film \"image\""},
 		{SPEC_ERANGE, "Sampler \"x\" \"integer pixelsamples\" 0",
@@ -782,6 +787,7 @@ materials_have_defaults(void **state)
 	assert_int_equal(material[1].eta.kind, SPEC_SCENE_CURVE);
 	assert_contains(material[1].eta.curve.title, "Copper");
 	assert_string_equal(material[1].eta.curve.column[0], "n");
+	assert_contains(material[1].k.curve.title, "Copper");
 	assert_string_equal(material[1].k.curve.column[0], "k");
 	assert_true(material[1].roughness[0] == 0 && material[1].roughness[1] == 0);
 	assert_int_equal(material[2].kind, SPEC_SCENE_DIELECTRIC);
