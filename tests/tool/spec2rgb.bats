@@ -110,6 +110,50 @@ quiet() {
   [ "$(pixel spot.ppm 2 1)" != '0 0 0' ]
 }
 
+@test "the data window's bands of S0 are what is shown, and nothing beside them" {
+  spectral plain.exr
+  spectral moved.exr --data 3,-5 --display 0,0,40,40 --extra A --extra R --extra preview.X --number EV=3
+  speccomp --expr 'a' plain.exr -o s0.exr
+  spectral four.exr --kind stokes
+  speccomp --expr 'stokes == 0 ? 0.001 * (x + 1) + 0.01 * y + 0.1 * (nm - 400) / 20 : 7' four.exr -o stokes.exr
+  speccomp --expr '0.001 * (x + 1) + 0.01 * y + 0.1 * (nm - 400) / 20' plain.exr -o s0.exr
+  for look in '' '-e auto' '--lod 2'; do
+    # shellcheck disable=SC2086 # several words or none
+    for image in plain moved stokes s0; do spec2rgb $look $image.exr -o $image.ppm; done
+    cmp plain.ppm moved.ppm
+    cmp s0.ppm stokes.ppm
+  done
+  spec2rgb --model hsv plain.exr -o plain.hsv.exr
+  spec2rgb --model hsv moved.exr -o moved.hsv.exr
+  exrheader moved.hsv.exr | grep -A1 '^dataWindow' | xargs | grep -qF '(3 -5) - (18 2)' || complain "$(exrheader moved.hsv.exr)"
+  cmp <(layers --print 5,2 plain.hsv.exr) <(layers --print 5,2 moved.hsv.exr)
+}
+
+@test "light takes no illuminant, and values per band are no reflectance" {
+  spectral light.exr
+  spec2rgb light.exr -o plain.ppm
+  spec2rgb --illuminant A light.exr -o a.ppm
+  cmp plain.ppm a.ppm
+  for adapt in vonkries bradford cat02 cat16; do
+    spec2rgb --illuminant A --adapt $adapt light.exr -o a.ppm
+    cmp plain.ppm a.ppm
+  done
+  spectral each.exr --kind T --quantity 'reflectance per band'
+  fails_cleanly spec2rgb each.exr -o x.png
+  [[ $stderr = *'each.exr: values per band are light already and take no illuminant' ]]
+}
+
+@test "an illuminant is linear between its samples and zero outside its data" {
+  spectral white.exr --kind T --grid 360:830:1 --pattern constant:1
+  spectral blue.exr --kind T --grid 360:499:1 --pattern constant:1
+  printf '%s\n' '# quantity: spectral power distribution' '500 1' '600 3' >short.spd
+  # The same by 1 nm, and zero written out.
+  { echo '# quantity: spectral power distribution'; seq 360 499 | sed 's/$/ 0/'
+    seq 500 600 | awk '{ print $1, 1 + ($1 - 500) / 50 }'; seq 601 830 | sed 's/$/ 0/'; } >long.spd
+  [ "$(xyz_of white.exr -q --illuminant short.spd)" = "$(xyz_of white.exr -q --illuminant long.spd)" ]
+  [ "$(xyz_of blue.exr -q --illuminant short.spd)" = '0 0 0' ]
+}
+
 @test "--observer 1964 sees another picture than 1931" {
   spectral ramp.exr
   spec2rgb ramp.exr -o default.ppm
@@ -256,6 +300,19 @@ xyz_of() {
       y = 0.68990272 * l + 0.34832189 * m
       z = 1.93485343 * s
       exit !((x / y - $6 / $5) ^ 2 < 1e-8 && (z / y - $4 / $5) ^ 2 < 1e-8) }'
+}
+
+@test "--observer: columns without names are x, y and z; a sensitivity gives greys" {
+  spectral ramp.exr
+  grep '^[0-9]' "$ROOT/spectra/cmf/cie1931.spd" >bare.spd
+  spec2rgb ramp.exr -o 1931.ppm
+  spec2rgb --observer bare.spd ramp.exr -o bare.ppm
+  cmp 1931.ppm bare.ppm
+  printf '%s\n' '# quantity: spectral sensitivity' '400 0' '550 1' '700 0' >film.spd
+  spec2rgb --observer film.spd ramp.exr -o film.exr
+  layers --print 3,2 film.exr | awk '{ v[NR] = $2 } END { exit !(NR == 3 && v[1] > 0 && v[1] == v[2] && v[2] == v[3]) }'
+  sed '1s/sensitivity/radiance/' film.spd >other.spd
+  fails_cleanly spec2rgb --observer other.spd ramp.exr -o x.png
 }
 
 @test "--observer refuses what is none" {
@@ -411,6 +468,30 @@ xyz_of() {
   fails_cleanly spec2rgb --bits 16 a.exr -o a.jpg
   fails_cleanly spec2rgb --bits 12 a.exr -o a.png
   no_leftovers . a.exr
+}
+
+@test "a terminal as output is refused" {
+  spectral a.exr
+  shuns_terminal 'spec2rgb a.exr'
+}
+
+@test "--bits: what each format holds" {
+  spectral image.exr
+  while read -r suffix held refused; do
+    for bits in ${held//,/ }; do spec2rgb --bits "$bits" image.exr -o "a.$suffix"; done
+    for bits in ${refused//,/ }; do fails_cleanly spec2rgb --bits "$bits" image.exr -o "x.$suffix"; done
+    [ ! -e "x.$suffix" ]
+  done <<'END'
+png 8,16 32
+ppm 8,16 32
+exr 32,16 8
+tif 8,16,32 24
+tiff 8,16,32 12
+hdr 32 8,16
+rgbe 32 8,16
+bmp 8 16,32
+END
+  exrheader a.exr | grep -q ' R, 16-bit floating-point'
 }
 
 @test "a folder that is not there" {
@@ -843,6 +924,17 @@ END
   done
   spec2rgb --space acescg --bits 32 a.exr -o linear.tif
   oiiotool --info -v linear.tif | grep -q 'ICCProfile:profile_description: "ACEScg"'
+}
+
+@test "--space xyy: the black of light is that of equal energy, of reflectance that of the illuminant" {
+  spectral light.exr --grid 360:830:5 --pattern constant:0
+  spectral card.exr --kind T --grid 360:830:5 --pattern constant:0
+  spec2rgb --space xyy light.exr -o black.exr
+  layers --print 0,0 black.exr | near '0.33333 0.33333 0' 1e-4 x y Y
+  spec2rgb --space xyy --illuminant A card.exr -o black.exr
+  layers --print 0,0 black.exr | near '0.44757 0.40745 0' 1e-4 x y Y
+  spec2rgb --space xyy --illuminant A --adapt cat02 card.exr -o black.exr
+  layers --print 0,0 black.exr | near '0.34567 0.35851 0' 1e-5 x y Y
 }
 
 # Exposure, tone, gamut, dither
