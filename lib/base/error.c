@@ -15,18 +15,26 @@ spec_error_plain(char *text)
 }
 
 enum spec_status
-spec_error_set(struct spec_error *error, enum spec_status status, const char *format, ...)
+spec_error_vset(struct spec_error *error, enum spec_status status, const char *format,
+	va_list arguments)
 {
-	va_list arguments;
-
 	if (!error)
 		return status;
 	error->status = status;
 	error->place[0] = '\0';
-	va_start(arguments, format);
 	vsnprintf(error->message, sizeof error->message, format, arguments);
-	va_end(arguments);
 	spec_error_plain(error->message);
+	return status;
+}
+
+enum spec_status
+spec_error_set(struct spec_error *error, enum spec_status status, const char *format, ...)
+{
+	va_list arguments;
+
+	va_start(arguments, format);
+	spec_error_vset(error, status, format, arguments);
+	va_end(arguments);
 	return status;
 }
 
@@ -37,13 +45,11 @@ spec_error_system(struct spec_error *error, int errnum, const char *format, ...)
 	va_list arguments;
 	size_t length;
 
+	va_start(arguments, format);
+	spec_error_vset(error, status, format, arguments);
+	va_end(arguments);
 	if (!error)
 		return status;
-	error->status = status;
-	error->place[0] = '\0';
-	va_start(arguments, format);
-	vsnprintf(error->message, sizeof error->message, format, arguments);
-	va_end(arguments);
 	length = strlen(error->message);
 	snprintf(error->message + length, sizeof error->message - length, ": %s",
 		strerror(errnum));
@@ -87,13 +93,11 @@ enum spec_status
 spec_error_set_at(
 	struct spec_error *error, const char *text, size_t at, const char *format, ...)
 {
-	char message[sizeof error->message];
 	va_list arguments;
 
 	va_start(arguments, format);
-	vsnprintf(message, sizeof message, format, arguments);
+	spec_error_vset(error, SPEC_EUSAGE, format, arguments);
 	va_end(arguments);
-	spec_error_set(error, SPEC_EUSAGE, "%s", message);
 	spec_error_point(error, text, at);
 	return SPEC_EUSAGE;
 }

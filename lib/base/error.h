@@ -6,6 +6,7 @@
 #ifndef SPEC_BASE_ERROR_H
 #define SPEC_BASE_ERROR_H
 
+#include <stdarg.h>
 #include <stddef.h>
 
 enum spec_status {
@@ -31,6 +32,10 @@ void spec_error_plain(char *text);
 /* A null error is allowed: the status is still returned. */
 enum spec_status spec_error_set(struct spec_error *error, enum spec_status status,
 	const char *format, ...) __attribute__((format(printf, 3, 4)));
+
+/* As spec_error_set, of a function's own variable arguments; error's own message is none. */
+enum spec_status spec_error_vset(struct spec_error *error, enum spec_status status,
+	const char *format, va_list arguments) __attribute__((format(printf, 3, 0)));
 
 /* As spec_error_set, and appends ": " and the text of the errno given. */
 enum spec_status spec_error_system(struct spec_error *error, int errnum, const char *format,

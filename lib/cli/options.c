@@ -316,13 +316,11 @@ void
 cli_usage(const struct cli *cli, const char *format, ...)
 {
 	struct spec_error error;
-	char message[sizeof error.message];
 	va_list arguments;
 
 	va_start(arguments, format);
-	vsnprintf(message, sizeof message, format, arguments);
+	spec_error_vset(&error, SPEC_EUSAGE, format, arguments);
 	va_end(arguments);
-	spec_error_set(&error, SPEC_EUSAGE, "%s", message);
 	cli_die(cli, &error);
 }
 

@@ -58,13 +58,11 @@ static enum spec_status __attribute__((format(printf, 4, 5)))
 fail(const struct maker *maker, enum spec_status status, const struct spec_node *node,
 	const char *format, ...)
 {
-	char message[sizeof maker->error->message];
 	va_list arguments;
 
 	va_start(arguments, format);
-	vsnprintf(message, sizeof message, format, arguments);
+	spec_error_vset(maker->error, status, format, arguments);
 	va_end(arguments);
-	spec_error_set(maker->error, status, "%s", message);
 	spec_error_point(maker->error, maker->expression->text, node->at);
 	return status;
 }

@@ -15,14 +15,13 @@ enum spec_status
 spec_parser_fail(const struct spec_parser *parser, const struct spec_statement *statement,
 	enum spec_status status, const char *format, ...)
 {
-	char message[600];
 	va_list arguments;
 
 	va_start(arguments, format);
-	vsnprintf(message, sizeof message, format, arguments);
+	spec_error_vset(parser->error, status, format, arguments);
 	va_end(arguments);
-	return spec_scene_fail(
-		parser->scene, &statement->place, parser->error, status, "%s", message);
+	spec_scene_prefix(parser->scene, &statement->place, parser->error);
+	return status;
 }
 
 /* Puts a place before an error without one, such as a transform's. */

@@ -79,16 +79,16 @@ static enum spec_status fail(const struct reader *reader, enum spec_status statu
 static enum spec_status
 fail(const struct reader *reader, enum spec_status status, const char *format, ...)
 {
-	char cause[512];
 	va_list arguments;
 
 	va_start(arguments, format);
-	vsnprintf(cause, sizeof cause, format, arguments);
+	spec_error_vset(reader->error, status, format, arguments);
 	va_end(arguments);
 	if (reader->line == 0)
-		return spec_error_set(reader->error, status, "%s: %s", reader->name, cause);
-	return spec_error_set(
-		reader->error, status, "%s:%zu: %s", reader->name, reader->line, cause);
+		spec_error_prefix(reader->error, "%s", reader->name);
+	else
+		spec_error_prefix(reader->error, "%s:%zu", reader->name, reader->line);
+	return status;
 }
 
 /* ---- bytes ---- */

@@ -1,7 +1,6 @@
 #include "scene/scene.h"
 
 #include <stdarg.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -84,13 +83,11 @@ enum spec_status
 spec_scene_fail(const struct spec_scene *scene, const struct spec_scene_place *place,
 	struct spec_error *error, enum spec_status status, const char *format, ...)
 {
-	char message[sizeof error->message];
 	va_list arguments;
 
 	va_start(arguments, format);
-	vsnprintf(message, sizeof message, format, arguments);
+	spec_error_vset(error, status, format, arguments);
 	va_end(arguments);
-	spec_error_set(error, status, "%s", message);
 	spec_scene_prefix(scene, place, error);
 	return status;
 }
@@ -115,11 +112,9 @@ spec_scene_warn(struct spec_scene *scene, const struct spec_scene_place *place,
 	char *text;
 
 	/* A message of its own, to be prefixed and made plain as errors are. */
-	spec_error_set(&warning, SPEC_OK, " ");
 	va_start(arguments, format);
-	vsnprintf(warning.message, sizeof warning.message, format, arguments);
+	spec_error_vset(&warning, SPEC_OK, format, arguments);
 	va_end(arguments);
-	spec_error_plain(warning.message);
 	for (size_t i = 0; i < scene->warnings; i++)
 		if (says(scene->warning[i], warning.message))
 			return SPEC_OK;

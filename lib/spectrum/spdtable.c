@@ -43,14 +43,13 @@ static enum spec_status fail(const struct parser *parser, enum spec_status statu
 static enum spec_status
 fail(const struct parser *parser, enum spec_status status, const char *format, ...)
 {
-	char cause[512];
 	va_list arguments;
 
 	va_start(arguments, format);
-	vsnprintf(cause, sizeof cause, format, arguments);
+	spec_error_vset(parser->error, status, format, arguments);
 	va_end(arguments);
-	return spec_error_set(
-		parser->error, status, "%s:%zu: %s", parser->name, parser->line, cause);
+	spec_error_prefix(parser->error, "%s:%zu", parser->name, parser->line);
+	return status;
 }
 
 static enum spec_status
