@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/interval.h"
 #include "base/memory.h"
 #include "base/number.h"
 #include "image/expandedreader.h"
@@ -360,23 +361,6 @@ fetch(struct spec_decoder *base, struct spec_error *error)
 		base->y0 + base->lines, error);
 }
 
-/* The band at or below a wavelength: bands - 1 beyond the last. */
-static size_t
-find_band(const double *edge_nm, size_t edges, double nm)
-{
-	size_t low = 0, high = edges;
-
-	while (high - low > 1) {
-		size_t middle = (low + high) / 2;
-
-		if (edge_nm[middle] <= nm)
-			low = middle;
-		else
-			high = middle;
-	}
-	return low;
-}
-
 /* The width that a sample stands for in an integral by trapezoids. */
 static double
 cell_nm(const struct spec_image *image, size_t i)
@@ -402,7 +386,7 @@ add_line(const struct spec_image *image, float *const *band, size_t x, double we
 	if (!(nm > 0) || weight == 0)
 		return;
 	if (image->edges_nm) {
-		i = find_band(image->edges_nm, image->bands, nm);
+		i = spec_interval_find(image->edges_nm, image->bands, nm);
 		if (nm < image->edges_nm[0] || nm > image->edges_nm[image->bands])
 			return;
 		if (band[i])
@@ -412,7 +396,7 @@ add_line(const struct spec_image *image, float *const *band, size_t x, double we
 	}
 	if (nm < image->wavelength_nm[0] || nm > image->wavelength_nm[last])
 		return;
-	i = find_band(image->wavelength_nm, image->bands, nm);
+	i = spec_interval_find(image->wavelength_nm, image->bands, nm);
 	i -= i == last;
 	part = (nm - image->wavelength_nm[i]) /
 	       (image->wavelength_nm[i + 1] - image->wavelength_nm[i]);

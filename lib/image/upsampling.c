@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/interval.h"
 #include "base/memory.h"
 #include "colour/basis.h"
 #include "colour/smits.h"
@@ -100,18 +101,11 @@ value_at(const struct product *product, double nm, double *value, struct spec_er
 static double
 next_sample(const struct spec_curve *curve, double nm, double limit_nm)
 {
-	size_t low = 0, high = curve ? curve->count : 0;
+	size_t next =
+		curve ? spec_interval_count(curve->wavelength_nm, curve->count, nm) : 0;
 
-	while (low < high) {
-		size_t middle = (low + high) / 2;
-
-		if (curve->wavelength_nm[middle] <= nm)
-			low = middle + 1;
-		else
-			high = middle;
-	}
-	return curve && low < curve->count ? fmin(curve->wavelength_nm[low], limit_nm)
-					   : limit_nm;
+	return curve && next < curve->count ? fmin(curve->wavelength_nm[next], limit_nm)
+					    : limit_nm;
 }
 
 /*

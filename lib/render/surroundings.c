@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/interval.h"
 #include "base/memory.h"
 #include "base/vector.h"
 #include "image/reader.h"
@@ -360,18 +361,10 @@ spec_surroundings_add(const struct spec_surroundings *s, struct spec_vector dire
 static size_t
 find_share(const double *share, size_t count, double number, double *part)
 {
-	size_t low = 0, high = count;
+	size_t found = spec_interval_find(share, count, number);
 
-	while (high - low > 1) {
-		size_t middle = (low + high) / 2;
-
-		if (share[middle] <= number)
-			low = middle;
-		else
-			high = middle;
-	}
-	*part = (number - share[low]) / (share[low + 1] - share[low]);
-	return low;
+	*part = (number - share[found]) / (share[found + 1] - share[found]);
+	return found;
 }
 
 /* Of a pixel's share of all directions, per steradian. */

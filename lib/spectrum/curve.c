@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/interval.h"
 #include "base/memory.h"
 
 #define END_SLACK 1e-9 /* relative: rounding in a wavelength is no extrapolation */
@@ -136,30 +137,11 @@ refuse(const struct spec_curve *curve, double wavelength_nm, struct spec_error *
 		wavelength_nm);
 }
 
-/*
- * The index of the last sample at or below a wavelength that lies at or above the first
- * sample and below the last.
- */
-static size_t
-find_interval(const struct spec_curve *curve, double wavelength_nm)
-{
-	size_t low = 0, high = curve->count - 1;
-
-	while (high - low > 1) {
-		size_t middle = low + (high - low) / 2;
-
-		if (curve->wavelength_nm[middle] <= wavelength_nm)
-			low = middle;
-		else
-			high = middle;
-	}
-	return low;
-}
-
 static double
 interpolate(const struct spec_curve *curve, const double *value, double wavelength_nm)
 {
-	size_t i = find_interval(curve, wavelength_nm);
+	size_t i =
+		spec_interval_find(curve->wavelength_nm, curve->count - 1, wavelength_nm);
 	double from_nm = curve->wavelength_nm[i], to_nm = curve->wavelength_nm[i + 1];
 
 	/* In this form the samples themselves and level stretches come out exactly. */

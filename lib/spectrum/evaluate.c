@@ -1,6 +1,7 @@
 /* Values, means and integrals of spectra; see spectrum.h. */
 #include <math.h>
 
+#include "base/interval.h"
 #include "spectrum/fourier.h"
 #include "spectrum/mean.h"
 #include "spectrum/planck.h"
@@ -175,23 +176,6 @@ check_edges(const struct spec_spectrum *spectrum, enum spec_extrapolate extrapol
 		       : refuse(spectrum, edges_nm[bins], error);
 }
 
-/* The bin that holds a wavelength which no outer edge leaves out. */
-static size_t
-find_bin(const double *edges_nm, size_t bins, double nm)
-{
-	size_t low = 0, high = bins;
-
-	while (high - low > 1) {
-		size_t middle = low + (high - low) / 2;
-
-		if (edges_nm[middle] <= nm)
-			low = middle;
-		else
-			high = middle;
-	}
-	return low;
-}
-
 enum spec_status
 spec_spectrum_mean(const struct spec_spectrum *spectrum, enum spec_extrapolate extrapolate,
 	const double *edges_nm, size_t bins, double *value, struct spec_error *error)
@@ -218,7 +202,7 @@ spec_spectrum_mean(const struct spec_spectrum *spectrum, enum spec_extrapolate e
 		}
 	for (size_t i = 0; status == SPEC_OK && bins > 0 && i < spectrum->lines; i++) {
 		double nm = spectrum->line[i].wavelength_nm;
-		size_t bin = find_bin(edges_nm, bins, nm);
+		size_t bin = spec_interval_find(edges_nm, bins, nm);
 
 		if (nm >= edges_nm[0] && nm <= edges_nm[bins])
 			value[bin] += spectrum->line[i].weight /

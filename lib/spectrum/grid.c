@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/interval.h"
 #include "base/memory.h"
 #include "base/number.h"
 
@@ -127,19 +128,12 @@ spec_grid_copy(
 size_t
 spec_grid_nearest(const double *known_nm, size_t count, double wavelength_nm, int *same)
 {
-	size_t low = 0, high = count - 1;
+	size_t low = spec_interval_find(known_nm, count - 1, wavelength_nm);
 	double tolerance_nm = SAME_NM;
 
-	while (high - low > 1) {
-		size_t middle = (low + high) / 2;
-
-		if (known_nm[middle] <= wavelength_nm)
-			low = middle;
-		else
-			high = middle;
-	}
-	if (fabs(known_nm[high] - wavelength_nm) < fabs(known_nm[low] - wavelength_nm))
-		low = high;
+	if (low + 1 < count && fabs(known_nm[low + 1] - wavelength_nm) <
+				       fabs(known_nm[low] - wavelength_nm))
+		low++;
 	if (low > 0)
 		tolerance_nm = fmin(
 			tolerance_nm, SAME_SHARE * (known_nm[low] - known_nm[low - 1]));

@@ -3,6 +3,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/interval.h"
+
 #define EQUIDISTANT 1e-6 /* of a step */
 
 #define BESSEL_TERMS 24
@@ -214,28 +216,11 @@ spec_piece_cut(struct spec_piece *piece, double low_nm, double high_nm)
 	piece->to_nm = to_nm;
 }
 
-/* The last sample at or below a wavelength, but never the very last one. */
-static size_t
-find_interval(const struct spec_samples *samples, double nm)
-{
-	size_t low = 0, high = samples->count - 1;
-
-	while (high - low > 1) {
-		size_t middle = low + (high - low) / 2;
-
-		if (samples->wavelength_nm[middle] <= nm)
-			low = middle;
-		else
-			high = middle;
-	}
-	return low;
-}
-
 double
 spec_samples_at(const struct spec_samples *samples, double nm)
 {
 	const double *at_nm = samples->wavelength_nm, *value = samples->value;
-	size_t i = find_interval(samples, nm);
+	size_t i = spec_interval_find(at_nm, samples->count - 1, nm);
 	double x, a[6];
 
 	if (nm <= at_nm[0])
@@ -299,7 +284,8 @@ spec_samples_integral(const struct spec_samples *samples, double a_nm, double b_
 
 	if (samples->count < 2)
 		return 0;
-	for (size_t i = find_interval(samples, a_nm);
+	for (size_t i = spec_interval_find(
+		     samples->wavelength_nm, samples->count - 1, a_nm);
 		i + 1 < samples->count && samples->wavelength_nm[i] < b_nm; i++) {
 		struct spec_piece pieces[2];
 		int count = spec_samples_pieces(samples, i, pieces);

@@ -2,6 +2,8 @@
 
 #include <math.h>
 
+#include "base/interval.h"
+
 /* The column of a curve, and the first sample that no bin has passed. */
 struct walk {
 	size_t count, next;
@@ -35,23 +37,6 @@ gather(struct gathered *gathered, double width_nm, double from, double to)
 	gathered->integral += .5 * width_nm * (from + to);
 	gathered->lowest = fmin(gathered->lowest, fmin(from, to));
 	gathered->highest = fmax(gathered->highest, fmax(from, to));
-}
-
-/* The first sample above a wavelength, or the count when there is none. */
-static size_t
-first_above(const struct walk *walk, double nm)
-{
-	size_t low = 0, high = walk->count;
-
-	while (low < high) {
-		size_t middle = low + (high - low) / 2;
-
-		if (walk->wavelength_nm[middle] <= nm)
-			low = middle + 1;
-		else
-			high = middle;
-	}
-	return low;
 }
 
 /* The curve at nm, which lies between the sample before the next and the next. */
@@ -125,7 +110,8 @@ spec_curve_mean(const struct spec_curve *curve, size_t column,
 	if (status != SPEC_OK)
 		return status;
 	walk.value = curve->value + column * curve->count;
-	walk.next = first_above(&walk, fmax(edges_nm[0], curve->wavelength_nm[0]));
+	walk.next = spec_interval_count(
+		walk.wavelength_nm, walk.count, fmax(edges_nm[0], curve->wavelength_nm[0]));
 	for (size_t i = 0; i < bins; i++)
 		value[i] = mean_of_bin(&walk, extrapolate, edges_nm[i], edges_nm[i + 1]);
 	return SPEC_OK;

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/interval.h"
 #include "base/memory.h"
 #include "spectrum/product.h"
 
@@ -31,23 +32,6 @@ spec_bins_shared(const double *edges_nm, size_t i, double low_nm, double high_nm
 	return fmax(0, fmin(edges_nm[i + 1], high_nm) - fmax(edges_nm[i], low_nm));
 }
 
-/* How many edges, ascending, lie at or below a wavelength. */
-static size_t
-count_below(const double *edges_nm, size_t edges, double wavelength_nm)
-{
-	size_t low = 0, high = edges;
-
-	while (low < high) {
-		size_t middle = low + (high - low) / 2;
-
-		if (edges_nm[middle] <= wavelength_nm)
-			low = middle + 1;
-		else
-			high = middle;
-	}
-	return low;
-}
-
 struct spec_overlap
 spec_bins_overlap(const double *edges_nm, size_t bins, double low_nm, double high_nm)
 {
@@ -58,7 +42,7 @@ spec_bins_overlap(const double *edges_nm, size_t bins, double low_nm, double hig
 	overlap.above_nm = high_nm - fmax(edges_nm[bins], low_nm);
 	overlap.below_nm = overlap.below_nm > slack_nm ? overlap.below_nm : 0;
 	overlap.above_nm = overlap.above_nm > slack_nm ? overlap.above_nm : 0;
-	overlap.first = count_below(edges_nm + 1, bins, low_nm + slack_nm);
+	overlap.first = spec_interval_count(edges_nm + 1, bins, low_nm + slack_nm);
 	while (overlap.first + overlap.count < bins &&
 		edges_nm[overlap.first + overlap.count] < high_nm - slack_nm)
 		overlap.count++;

@@ -2,6 +2,8 @@
 
 #include <string.h>
 
+#include "base/interval.h"
+
 enum spec_status
 spec_weights_check(enum spec_interpolate rule, const double *known_nm, size_t count,
 	struct spec_error *error)
@@ -9,23 +11,6 @@ spec_weights_check(enum spec_interpolate rule, const double *known_nm, size_t co
 	struct spec_samples samples = {known_nm, known_nm, count, rule};
 
 	return spec_samples_check(&samples, error);
-}
-
-/* The last sample but one at most, at or below a wavelength. */
-static size_t
-find_interval(const double *known_nm, size_t count, double wavelength_nm)
-{
-	size_t low = 0, high = count - 1;
-
-	while (high - low > 1) {
-		size_t middle = low + (high - low) / 2;
-
-		if (known_nm[middle] <= wavelength_nm)
-			low = middle;
-		else
-			high = middle;
-	}
-	return low;
 }
 
 /* The samples that a value in interval i is made of: two, or six about it. */
@@ -52,8 +37,8 @@ spec_weights_at(enum spec_interpolate rule, const double *known_nm, size_t count
 		return (struct spec_weights){.first = 0, .count = 1, .weight = {1}};
 	if (wavelength_nm >= known_nm[count - 1])
 		return (struct spec_weights){.first = count - 1, .count = 1, .weight = {1}};
-	weights =
-		choose_samples(rule, count, find_interval(known_nm, count, wavelength_nm));
+	weights = choose_samples(
+		rule, count, spec_interval_find(known_nm, count - 1, wavelength_nm));
 	/* The value is linear in the samples: each by itself gives its weight. */
 	for (size_t k = 0; k < weights.count; k++) {
 		double one[SPEC_WEIGHTS_MOST] = {0};
