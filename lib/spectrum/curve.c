@@ -22,6 +22,21 @@ spec_curve_set_text(char **field, const char *text, struct spec_error *error)
 	return SPEC_OK;
 }
 
+enum spec_status
+spec_curve_join_texts(char **field, const char *one, const char *between, const char *other,
+	struct spec_error *error)
+{
+	size_t size = strlen(one) + strlen(between) + strlen(other) + 1;
+	char *text = spec_memory_new(size, 1, "bytes of text", error);
+
+	if (!text)
+		return SPEC_ENOMEM;
+	snprintf(text, size, "%s%s%s", one, *one && *other ? between : "", other);
+	free(*field);
+	*field = text;
+	return SPEC_OK;
+}
+
 static enum spec_status
 name_columns(struct spec_curve *curve, struct spec_error *error)
 {

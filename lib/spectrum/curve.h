@@ -50,6 +50,10 @@ enum spec_status spec_curve_copy(
 enum spec_status spec_curve_set_text(
 	char **field, const char *text, struct spec_error *error);
 
+/* Replaces it by one text, between, and the other, or by one of these where the other is "". */
+enum spec_status spec_curve_join_texts(char **field, const char *one, const char *between,
+	const char *other, struct spec_error *error);
+
 /* The index of the column of that name, or curve->columns if there is none. */
 size_t spec_curve_find_column(const struct spec_curve *curve, const char *name);
 

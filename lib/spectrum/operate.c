@@ -380,22 +380,6 @@ choose_quantity(
 	return "";
 }
 
-/* Sets a text to one, a separator and two; of one alone where the other is "". */
-static enum spec_status
-join(char **field, const char *one, const char *between, const char *two,
-	struct spec_error *error)
-{
-	size_t size = strlen(one) + strlen(between) + strlen(two) + 1;
-	char *text = spec_memory_new(size, 1, "bytes of text", error);
-
-	if (!text)
-		return SPEC_ENOMEM;
-	snprintf(text, size, "%s%s%s", one, *one && *two ? between : "", two);
-	free(*field);
-	*field = text;
-	return SPEC_OK;
-}
-
 static enum spec_status
 name_result(const struct spec_spectrum *a, enum spec_operator op,
 	const struct spec_spectrum *b, struct spec_spectrum *result,
@@ -414,8 +398,10 @@ name_result(const struct spec_spectrum *a, enum spec_operator op,
 		status = spec_curve_set_text(&result->medium,
 			strcmp(a->medium, b->medium) == 0 ? a->medium : "", error);
 	if (status == SPEC_OK)
-		status = join(&result->title, a->title, between, b->title, error);
-	return status == SPEC_OK ? join(&result->source, a->source, "; ", b->source, error)
+		status = spec_curve_join_texts(
+			&result->title, a->title, between, b->title, error);
+	return status == SPEC_OK ? spec_curve_join_texts(&result->source, a->source, "; ",
+					   b->source, error)
 				 : status;
 }
 

@@ -1,6 +1,5 @@
 #include "spectrum/product.h"
 
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -117,23 +116,6 @@ merge(const struct spec_curve *a, const struct spec_curve *b, double *list)
 	return count;
 }
 
-/* Sets a text to one, between and two. */
-static enum spec_status
-join(char **field, const char *one, const char *between, const char *two,
-	struct spec_error *error)
-{
-	size_t size = strlen(one) + strlen(between) + strlen(two) + 1;
-	char *text = spec_memory_new(size, 1, "bytes of text", error);
-	enum spec_status status = text ? SPEC_OK : SPEC_ENOMEM;
-
-	if (text) {
-		snprintf(text, size, "%s%s%s", one, *one && *two ? between : "", two);
-		status = spec_curve_set_text(field, text, error);
-	}
-	free(text);
-	return status;
-}
-
 enum how { MULTIPLY, DIVIDE, ADD };
 
 static int
@@ -189,8 +171,10 @@ name_result(enum how how, const struct spec_curve *a, const struct spec_curve *b
 	if (status == SPEC_OK)
 		status = spec_curve_set_text(&result->unit, unit, error);
 	if (status == SPEC_OK)
-		status = join(&result->title, a->title, between[how], b->title, error);
-	return status == SPEC_OK ? join(&result->source, a->source, "; ", b->source, error)
+		status = spec_curve_join_texts(
+			&result->title, a->title, between[how], b->title, error);
+	return status == SPEC_OK ? spec_curve_join_texts(&result->source, a->source, "; ",
+					   b->source, error)
 				 : status;
 }
 
