@@ -162,13 +162,8 @@ read_dielectric(
 static enum spec_status
 at(const struct spec_arguments *arguments, const char *name, enum spec_status status)
 {
-	const struct spec_parameter *parameter = spec_arguments_find(arguments, name);
-
-	if (status != SPEC_OK)
-		spec_scene_prefix(arguments->scene,
-			parameter ? &parameter->place : &arguments->place,
-			arguments->error);
-	return status;
+	return spec_arguments_blame(
+		arguments, spec_arguments_find(arguments, name), status);
 }
 
 /* A copy of a string parameter that must be there. */

@@ -255,6 +255,23 @@ spec_parameters_parse(struct spec_tokens *tokens, struct spec_parameters *parame
 
 /* ---- checking ---- */
 
+const struct spec_scene_place *
+spec_arguments_place(
+	const struct spec_arguments *arguments, const struct spec_parameter *parameter)
+{
+	return parameter ? &parameter->place : &arguments->place;
+}
+
+enum spec_status
+spec_arguments_blame(const struct spec_arguments *arguments,
+	const struct spec_parameter *parameter, enum spec_status status)
+{
+	if (status != SPEC_OK)
+		spec_scene_prefix(arguments->scene,
+			spec_arguments_place(arguments, parameter), arguments->error);
+	return status;
+}
+
 enum spec_status
 spec_arguments_fail(const struct spec_arguments *arguments,
 	const struct spec_parameter *parameter, enum spec_status status, const char *format,
@@ -271,9 +288,8 @@ spec_arguments_fail(const struct spec_arguments *arguments,
 			arguments->statement);
 	else
 		snprintf(subject, sizeof subject, "%s", arguments->statement);
-	return spec_scene_fail(arguments->scene,
-		parameter ? &parameter->place : &arguments->place, arguments->error, status,
-		"%s %s", subject, cause);
+	return spec_scene_fail(arguments->scene, spec_arguments_place(arguments, parameter),
+		arguments->error, status, "%s %s", subject, cause);
 }
 
 static const struct spec_expected *

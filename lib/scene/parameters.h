@@ -147,6 +147,14 @@ enum spec_status spec_arguments_text(
 enum spec_status spec_arguments_only(
 	const struct spec_arguments *arguments, const struct spec_parameter *parameter);
 
+/* A parameter's place; null: the statement's. */
+const struct spec_scene_place *spec_arguments_place(
+	const struct spec_arguments *arguments, const struct spec_parameter *parameter);
+
+/* Puts that place before an error that has none. Returns the status, which may be SPEC_OK. */
+enum spec_status spec_arguments_blame(const struct spec_arguments *arguments,
+	const struct spec_parameter *parameter, enum spec_status status);
+
 /* An error about a parameter; null: about the statement. Returns the status. */
 enum spec_status spec_arguments_fail(const struct spec_arguments *arguments,
 	const struct spec_parameter *parameter, enum spec_status status, const char *format,

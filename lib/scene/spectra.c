@@ -198,36 +198,33 @@ translate(const char *name, char *ours, size_t size, const char **column, const 
 
 /* The path of the file that a name stands for, to be freed. */
 static enum spec_status
-find(const struct spec_arguments *arguments, const struct spec_scene_place *place,
+find(const struct spec_arguments *arguments, const struct spec_parameter *parameter,
 	const char *name, char **path)
 {
 	enum spec_status status = SPEC_OK;
 
 	*path = NULL;
 	if (spec_lookup_is_path(name)) {
-		status = spec_scene_find_file(
-			arguments->scene, place, name, path, arguments->error);
+		status = spec_scene_find_file(arguments->scene,
+			spec_arguments_place(arguments, parameter), name, path,
+			arguments->error);
 		if (status != SPEC_OK || *path)
 			return status;
 	}
 	status = spec_lookup_path(name, path, arguments->error);
-	if (status != SPEC_OK)
-		spec_scene_prefix(arguments->scene, place, arguments->error);
-	return status;
+	return spec_arguments_blame(arguments, parameter, status);
 }
 
 static enum spec_status
 find_named(const struct spec_arguments *arguments, const struct spec_parameter *parameter,
 	const char *name, enum spec_scene_use use, char **path)
 {
-	const struct spec_scene_place *place =
-		parameter ? &parameter->place : &arguments->place;
 	const char *column, *hint;
 	char ours[128] = "";
 	enum spec_status status;
 
 	if (!translate(name, ours, sizeof ours, &column, &hint))
-		return find(arguments, place, name, path);
+		return find(arguments, parameter, name, path);
 	if (column && (use != SPEC_SCENE_ETA || *column != 'n') &&
 		(use != SPEC_SCENE_K || *column != 'k'))
 		return spec_arguments_fail(arguments, parameter, SPEC_EUSAGE,
@@ -237,9 +234,7 @@ find_named(const struct spec_arguments *arguments, const struct spec_parameter *
 		return spec_arguments_fail(arguments, parameter, SPEC_EUNSUPPORTED,
 			"is '%.60s', which is not among our spectra%s%s", name,
 			hint ? ": " : "", hint ? hint : "");
-	if (status != SPEC_OK)
-		spec_scene_prefix(arguments->scene, place, arguments->error);
-	return status;
+	return spec_arguments_blame(arguments, parameter, status);
 }
 
 /* A curve in place of what a file holds; a Fourier series or lines of light stay. */
@@ -247,8 +242,6 @@ static enum spec_status
 load(const struct spec_arguments *arguments, const struct spec_parameter *parameter,
 	const char *path, enum spec_scene_use use, struct spec_scene_spectrum *spectrum)
 {
-	const struct spec_scene_place *place =
-		parameter ? &parameter->place : &arguments->place;
 	struct spec_spectrum stored = {0};
 	enum spec_status status = spec_spectrum_load(path, &stored, arguments->error);
 
@@ -259,9 +252,7 @@ load(const struct spec_arguments *arguments, const struct spec_parameter *parame
 	if (status == SPEC_OK)
 		status = spec_spd_load(path, &spectrum->curve, arguments->error);
 	spectrum->kind = SPEC_SCENE_CURVE;
-	if (status != SPEC_OK)
-		spec_scene_prefix(arguments->scene, place, arguments->error);
-	return status;
+	return spec_arguments_blame(arguments, parameter, status);
 }
 
 /* What is computed and has no file. */
@@ -273,11 +264,7 @@ compute(const struct spec_arguments *arguments, const struct spec_parameter *par
 		spec_lookup_curve(name, &spectrum->curve, arguments->error);
 
 	spectrum->kind = SPEC_SCENE_CURVE;
-	if (status != SPEC_OK)
-		spec_scene_prefix(arguments->scene,
-			parameter ? &parameter->place : &arguments->place,
-			arguments->error);
-	return status;
+	return spec_arguments_blame(arguments, parameter, status);
 }
 
 static enum spec_status
