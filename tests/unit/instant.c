@@ -5,17 +5,7 @@
 #include "place/instant.h"
 
 #include "check.h"
-
-static struct spec_instant
-instant_of(const char *text)
-{
-	struct spec_error error = {0};
-	struct spec_instant instant;
-
-	if (spec_instant_parse(text, &instant, &error) != SPEC_OK)
-		fail_msg("%s", error.message);
-	return instant;
-}
+#include "instants.h"
 
 static void
 writes(const struct spec_instant *instant, int decimals, const char *wanted)

@@ -194,25 +194,9 @@ static const double d65_1931_20[][3] = {
 	{0, 0, 0},
 };
 
-/* The same for bands of 400 to 700 nm: the ends collect what is missing, after rounding. */
-static const double d65_1931_20_400_700[][3] = {
-	{.170, .002, .785},
-	{2.542, .071, 12.203},
-	{6.670, .453, 33.637},
-	{6.333, 1.316, 36.334},
-	{2.213, 2.933, 18.278},
-	{.052, 6.866, 5.543},
-	{1.348, 14.106, 1.611},
-	{5.767, 18.981, .382},
-	{11.301, 18.863, .068},
-	{16.256, 15.455, .025},
-	{17.933, 10.699, .013},
-	{14.020, 6.277, .003},
-	{7.057, 2.743, 0},
-	{2.527, .927, 0},
-	{.670, .242, 0},
-	{.185, .067, 0},
-};
+/* Of bands of 400 to 700 nm the ends collect what is missing, after rounding. */
+static const double d65_1931_20_at_400[3] = {.170, .002, .785};
+static const double d65_1931_20_at_700[3] = {.185, .067, 0};
 
 static void
 compare(struct scene *scene, double first_nm, double step_nm, const double (*table)[3],
@@ -233,8 +217,12 @@ static void
 astm_has_its_tables(void **state)
 {
 	struct scene scene;
+	double cut[16][3];
 
 	(void)state;
+	memcpy(cut, d65_1931_20 + 2, sizeof cut);
+	memcpy(cut[0], d65_1931_20_at_400, sizeof cut[0]);
+	memcpy(cut[15], d65_1931_20_at_700, sizeof cut[15]);
 	open_scene(
 		&scene, "1964", "blackbody:2855.4957K"); /* A by 1 nm: 2848 K of its c2 */
 	compare(&scene, 360, 10, a_1964_10, COUNT(a_1964_10), 5e-4);
@@ -242,7 +230,7 @@ astm_has_its_tables(void **state)
 	close_scene(&scene);
 	open_scene(&scene, "1931", "D65");
 	compare(&scene, 360, 20, d65_1931_20, COUNT(d65_1931_20), 5e-4);
-	compare(&scene, 400, 20, d65_1931_20_400_700, COUNT(d65_1931_20_400_700), 4 * 5e-4);
+	compare(&scene, 400, 20, (const double(*)[3])cut, COUNT(cut), 4 * 5e-4);
 	close_scene(&scene);
 }
 

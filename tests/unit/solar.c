@@ -6,22 +6,12 @@
 #include "place/sun.h"
 
 #include "check.h"
+#include "instants.h"
 
 #define ARCSECOND (1. / 3600)
 #define RADIANS (1 / 57.29577951308232)
 
 static const struct spec_place golden = {39.742476, -105.1786, 1830.14};
-
-static struct spec_instant
-instant_of(const char *text)
-{
-	struct spec_error error = {0};
-	struct spec_instant instant;
-
-	if (spec_instant_parse(text, &instant, &error) != SPEC_OK)
-		fail_msg("%s", error.message);
-	return instant;
-}
 
 static struct spec_solar
 solar_of(const struct spec_place *place, const char *time, const struct spec_air *air)
