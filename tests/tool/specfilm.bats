@@ -1154,6 +1154,8 @@ chart_is() {
   [ "$(exrheader c.exr | grep -c '^    T.*16-bit')" -eq 81 ]
   specfilm --stack "$soap" --chart 'angle 0..9' --grid 500:500:1 -o d.exr
   exrheader d.exr | grep -qx 'dataWindow (type box2i): (0 0) - (479 269)'
+  specfilm --stack "$soap" --chart 'angle 0..9' --grid 500:500:1 --size 32768x1 -o e.exr
+  exrheader e.exr | grep -qx 'dataWindow (type box2i): (0 0) - (32767 0)'
 }
 
 @test "--chart holds what --spectrum prints, at both ends of both axes and between" {

@@ -157,6 +157,7 @@ light_of() {
   prints '  bands         16, 400..700 nm by 20 nm, half' specinfo a.exr
   prints '  quantity      radiance per band [W m^-2 sr^-1]' specinfo a.exr
   prints '  format        OpenEXR, compression piz' specinfo a.exr
+  holds '.format == "OpenEXR" and .compression == "piz"' specinfo --json a.exr
   prints '  geometry      id' specinfo a.exr
   prints '  channels      float: A Z' specinfo a.exr
   specconvert --scale 2 a.exr | specconvert --scale "0.5" -o b.exr
@@ -181,6 +182,19 @@ light_of() {
   holds '.pixel_aspect_ratio == 1.25 and .bytes == 4 * 2 * (16 * 2 + 32 * 4)' specinfo --json c.exr
   prints "                owner                  $(printf 'x%.0s' {1..64}) ... (70 bytes)" specinfo c.exr
   prints "  channels      float:$(printf ' C%s' {10..25}) and 16 more" specinfo c.exr
+}
+
+@test "other formats have no compression" {
+  spectral a.exr --size 5x3 --pattern constant:0.5 --bins
+  while read -r file format; do
+    specconvert a.exr -o "$file"
+    prints "  format        $format" specinfo "$file"
+    holds ".format == \"$format\" and .compression == null" specinfo --json "$file"
+  done <<'END'
+a.hdr ENVI
+a.hsr Radiance HSR
+a.tif picture
+END
 }
 
 @test "quantities and their units" {
@@ -229,7 +243,8 @@ light_of() {
 @test "polarised, bispectral, not spectral" {
   spectral stokes.exr --kind stokes
   prints '  role          emissive, polarised (S0 S1 S2 S3)' specinfo stokes.exr
-  holds '.stokes == 4 and .bands == 16 and (.channels | length) == 64' specinfo --json stokes.exr
+  holds '.stokes == 4 and .bands == 16 and (.channels | length) == 64 and
+    ([.channels[].stokes] | unique == [0, 1, 2, 3])' specinfo --json stokes.exr
   spectral bi.exr --channel T.400nm --channel T.500nm --channel T.400nm.500nm
   prints '  role          reflective, bispectral (1 channels off the diagonal)' specinfo bi.exr
   holds '.bispectral == 1 and .channels[1].reradiated_nm == 500' specinfo --json bi.exr
@@ -271,6 +286,11 @@ light_of() {
   prints '                k: 1.277 at 203.3 nm to 13.78 at 1937 nm' specinfo Au
   holds '.format == "spd" and .medium == "vacuum" and .count == 45 and .step_nm == null' specinfo --json Au
   holds '.columns | map(.name) == ["n", "k"]' specinfo --json Au
+  holds '.quantity == "refractive index" and .unit == "1" and (.source | startswith("P. B. Johnson and R. W. Christy, "))' \
+    specinfo --json Au
+  prints '  quantity      refractive index' specinfo Au
+  prints '  unit          1' specinfo Au
+  specinfo Au | grep -q '^  source        P. B. Johnson and R. W. Christy, '
   printf '%s\n' '# title: a "filter"' 400,0.5 500,-1 600,3 >a.spd
   holds '.title == "a \"filter\"" and .wavelength_nm == [400, 500, 600] and .step_nm == 100' specinfo --json a.spd
   holds '.columns == [{name: "value", min: -1, min_nm: 500, max: 3, max_nm: 600}]' specinfo --json a.spd
@@ -564,6 +584,12 @@ about() {
   # ybar's share from 400 to 500 nm is 7 %: 7.4 of 106.857 nm (CIE 15).
   about '.pixels[0].outside' 0.931 0.003 specinfo --json -p 1,0 blue.exr
   specinfo -p 1,0 blue.exr | grep -qx '# x1y0 outside       93.1 % of Y, not counted'
+  # More than 1 % is told: of Y of equal energy 1.16 % lies beyond 655 nm, 0.84 % beyond 660.
+  spectral red.exr --size 1x1 --grid 380:655:5 --pattern constant:1
+  specinfo -p 0,0 red.exr | grep -qx '# x0y0 outside       1.2 % of Y, not counted'
+  spectral red.exr --size 1x1 --grid 380:660:5 --pattern constant:1
+  specinfo -p 0,0 red.exr >told
+  run ! grep -q outside told
   spectral infrared.exr --grid 900:1000:50
   holds '.pixels[0].XYZ == null and .pixels[0].S0 != null' specinfo --json -p 1,0 infrared.exr
   # XYZ of what is reradiated, too: more than that of the diagonal alone.
@@ -675,6 +701,34 @@ about() {
   triangle='d="M [0-9.]+ [0-9.]+ L [0-9.]+ [0-9.]+ L [0-9.]+ [0-9.]+ Z'
   grep -qE "$triangle" d.svg
   run ! grep -qE "$triangle" c.svg
+}
+
+# 520 nm is at 0.0743, 0.8338 (CIE 1931), the black body of 1000 K at 0.65275, 0.34446.
+@test "--plot: the loci, the white, and which spectrum is which" {
+  cp "$ROOT/spectra/illuminants/A.spd" a.spd
+  cp a.spd b.spd
+  for name in a b; do
+    specinfo --plot $name.svg $name.spd >told
+    grep -qE ' L 678\.73[0-9]* 66\.58[0-9]* ' $name.svg
+    grep -qE ' L 998\.58[0-9]* 337\.01[0-9]* ?"' $name.svg
+    grep -qE 'M 806\.5[0-9]* 345\.5[0-9]* L 814\.5[0-9]* 345\.5[0-9]* ' $name.svg
+  done
+  run ! cmp -s a.svg b.svg
+  specinfo --observer 1964 --plot c.svg a.spd >told
+  run ! grep -qE 'M 806\.5[0-9]* 345\.5' c.svg
+}
+
+@test "--plot: 1000 spectra at most" {
+  for count in 1000 1001; do
+    awk -v count=$count 'BEGIN {
+      print "# quantity: refractive index"
+      for (nm = 400; nm < 900; nm += 300) { printf "%d", nm; for (i = 0; i < count; i++) printf " 1.5"; print "" }
+    }' >$count.spd
+  done
+  specinfo --plot a.svg 1000.spd >told
+  fails_cleanly specinfo --plot b.svg 1001.spd
+  [[ $stderr = *'more than 1000 spectra are too many for a plot' ]]
+  [ ! -e b.svg ]
 }
 
 @test "--plot: of what is not finite, or no colour; and what is wrong" {
