@@ -15,6 +15,7 @@
 #include <unistd.h>
 
 #include "base/error.h"
+#include "base/interval.h"
 #include "base/memory.h"
 #include "base/number.h"
 #include "base/output.h"
@@ -394,6 +395,32 @@ test_memory_text(void **state)
 	(void)state;
 	assert_string_equal(text, "abc");
 	free(text);
+}
+
+/* Ascending lists */
+
+static void
+test_intervals(void **state)
+{
+	static const double edge[] = {1, 2, 3, 5, 8, 13};
+	static const struct {
+		double value;
+		size_t found, count; /* of 5 intervals, and of 6 edges */
+	} cases[] = {{-HUGE_VAL, 0, 0}, {.5, 0, 0}, {1, 0, 1}, {1.5, 0, 1}, {2, 1, 2},
+		{2.5, 1, 2}, {3, 2, 3}, {5, 3, 4}, {7.9, 3, 4}, {8, 4, 5}, {12, 4, 5},
+		{13, 4, 6}, {20, 4, 6}, {HUGE_VAL, 4, 6}, {NAN, 0, 0}};
+
+	(void)state;
+	for (size_t i = 0; i < COUNT(cases); i++) {
+		double value = cases[i].value;
+
+		assert_int_equal(spec_interval_find(edge, 5, value), cases[i].found);
+		assert_int_equal(spec_interval_count(edge, 6, value), cases[i].count);
+		assert_int_equal(spec_interval_find(edge, 1, value), 0);
+		assert_int_equal(spec_interval_find(edge, 0, value), 0);
+		assert_int_equal(spec_interval_count(edge, 1, value), value >= 1);
+		assert_int_equal(spec_interval_count(edge, 0, value), 0);
+	}
 }
 
 /* Output. Each test runs in an empty folder, which must hold only what it says at the end. */
@@ -1174,6 +1201,7 @@ main(void)
 {
 	const struct CMUnitTest tests[] = {
 		cmocka_unit_test(test_path),
+		cmocka_unit_test(test_intervals),
 		cmocka_unit_test(test_error_line_breaks),
 		cmocka_unit_test(test_error_system),
 		cmocka_unit_test(test_error_prefix),
