@@ -93,8 +93,6 @@ make_row(const struct spec_curve *curve, const double divisor[CHANNELS],
 
 			if (sample == SPEC_PICTURE_U8)
 				((uint8_t *)row)[at] = (uint8_t)(value * 255 + .5);
-			else if (sample == SPEC_PICTURE_U16)
-				((uint16_t *)row)[at] = (uint16_t)(value * 65535 + .5);
 			else
 				((float *)row)[at] = (float)value;
 		}

@@ -124,6 +124,9 @@ setup() {
   fails_cleanly specconvert --atlas -g 400:700:50 -o x.exr huge.spd
   [[ $stderr = *'beyond 32-bit floats, 1e+300' ]]
   fails_cleanly specconvert --atlas -g 400:700:50 --patches 1x1 -o x.exr ramp.spd
+  printf '%s\n' '400 1' '500 1' '700 1' >uneven.spd
+  fails_cleanly specconvert --atlas -g ./uneven.spd -o x.exr ramp.spd
+  [[ $stderr = *'the grid of an atlas has equal steps (--grid LO:HI:STEP)' ]] || complain "$stderr"
   fails_cleanly specconvert --atlas -g 400:700:50 -f spd ramp.spd
   fails_cleanly specconvert --atlas -g 400:700:50 -o x.png ramp.spd
   fails_cleanly specconvert --atlas --to fourier:9 -o x.exr ramp.spd
@@ -131,5 +134,5 @@ setup() {
   fails_cleanly specconvert --atlas -o x.exr scene.exr
   [[ $stderr = *"--atlas is for curves, 'scene.exr' is an image" ]]
   fails_cleanly specconvert --row a --from-rgb smits scene.exr
-  no_leftovers . glass.spd ramp.spd huge.spd scene.exr
+  no_leftovers . glass.spd ramp.spd huge.spd uneven.spd scene.exr
 }

@@ -81,6 +81,24 @@ straight() {
   specconvert --from-plot "$axes" --ink '#ff0000' last.ppm | awk '/^[0-9]/ { n++; if ($2 < .009999 || $2 > .010001) exit 1 } END { exit n != 101 }'
 }
 
+@test "what counts as ink, as a run and as the plot" {
+  # Beside the way from white to red by 36 / 255 and by 39 / 255; 28, 23, 130 and 125 of its 255 parts;
+  # four rows and five outside the points.
+  drawn a.ppm 110 70 '
+    if (x == 10 && y == 30) { r = 219; g = b = 0 }
+    if (x == 20 && y == 30) { r = 216; g = b = 0 }
+    if (x == 30 && y >= 29 && y <= 31) g = b = y == 30 ? 0 : y == 29 ? 227 : 232
+    if (x == 40 && y == 30) g = b = 125
+    if (x == 50 && y == 30) g = b = 130
+    if (x == 60 && y >= 55 && y <= 63) g = b = 0
+    if (x == 70 && y == 64) g = b = 0
+    if (x == 80 && y >= 5 && y <= 13) g = b = 0
+    if (x == 90 && y == 4) g = b = 0'
+  specconvert --from-plot "$axes" --ink '#ff0000' a.ppm | awk '!/^#/ { printf "%d %.4f\n", $1, $2 }' >found
+  # The middle of one pixel and 28 / 255 of the next lies 28 / 283 above it.
+  printf '%s\n' '410 0.5800' '430 0.5820' '440 0.5800' '460 0.0000' '480 1.0000' | cmp - found || complain "$(<found)"
+}
+
 @test "what is read goes on as a curve does" {
   drawn a.ppm 110 70 "$slope"
   specconvert --from-plot "$axes" --ink '#ff0000' -g 410:490:20 --scale 100 a.ppm |

@@ -186,10 +186,22 @@ largest_off() {
   specconvert --from-rgb sigmoid '#808080' | awk '/^[0-9]/ { n++; off = $2 - 0.21586050; if (off * off > 1e-14) exit 1 } END { exit n != 81 }'
   # Smits' steps as means: 412.5 nm to 417.5 nm spans two of them.
   specconvert --from-rgb smits 'rgb:0,0,1' -g 400:420:5 | grep -q '^405 1$'
-  specconvert --from-rgb smits 'rgb:0,1,0' -g 455:515:20 | awk '$1 == 475 { exit !($2 > .0273 && $2 < .7937) }'
+  # From 465 to 485 nm 16.5 of 20 nm are .0273, 3.5 are .7937.
+  specconvert --from-rgb smits 'rgb:0,1,0' -g 455:515:20 |
+    awk '$1 == 475 { n++; off = $2 - .16142; if (off * off > 1e-24) exit 1 } END { exit n != 1 }'
   [ "$(specconvert --from-rgb smits '#102030' | head -n 2 | tail -n 1)" = '# quantity: reflectance' ]
   [ "$(specconvert --from-rgb sun '#102030' | sed -n 's/# quantity: //p')" = 'spectral power distribution' ]
   [ "$(specconvert --from-rgb basis --as unbounded 'rgb:3,3,3' | sed -n 's/# quantity: //p')" = factor ]
+}
+
+@test "white light is D65, which spec2rgb shows as 1" {
+  for model in sigmoid basis smits sun; do
+    specconvert --from-rgb $model --as light rgb:1,1,1 -o white.exr
+    has_line white.exr 'emissiveUnits (type string): "W.m^-2.sr^-1"'
+    spec2rgb white.exr -o shown.exr
+    # Smits' white is 0.9992 where it is least.
+    pixel_holds shown.exr shown.exr 0,0 'is("R", 1, 1e-3); is("G", 1, 1e-3); is("B", 1, 1e-3)'
+  done
 }
 
 @test "colours become a chart, and take part in what curves take part in" {

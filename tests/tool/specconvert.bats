@@ -143,8 +143,11 @@ last_uints() {
 
 @test "--grid of a bispectral image is refused" {
   spectral a.exr --channel T.400,0nm --channel T.500,0nm --channel T.400,0nm.500,0nm
-  fails_cleanly specconvert --grid 400:500:50 a.exr -o b.exr
-  [[ $stderr = *bispectral* ]]
+  for bands in '--grid 400:500:50' '--band 400'; do
+    # shellcheck disable=SC2086 # words
+    fails_cleanly specconvert $bands a.exr -o b.exr
+    [[ $stderr = *bispectral* ]] || complain "$stderr"
+  done
 }
 
 # --band
@@ -435,6 +438,13 @@ last_uints() {
   specconvert a.spd -o a.exr
   has_channels a.exr T.400,000000nm T.700,000000nm
   has_line a.exr 'spec:quantity (type string): "reflectance"'
+  sed 's/reflectance/transmittance/' a.spd | specconvert --patches 1x1 -o t.exr
+  has_channels t.exr T.400,000000nm T.700,000000nm
+  has_line t.exr 'spec:quantity (type string): "transmittance"'
+  specconvert --half a.spd -o half.exr
+  [ "$(exrheader half.exr | grep -c '^    T.*16-bit')" -eq 2 ]
+  grep -v quantity a.spd | specconvert --patches 1x1 -o s.exr
+  has_line s.exr 'emissiveUnits (type string): "W.m^-2.sr^-1"'
 }
 
 @test "several curves become patches" {
@@ -469,6 +479,17 @@ last_uints() {
   done
   fails_cleanly specconvert --patches 2x1 --patch 0 one.spd -o chart.exr
   fails_cleanly specconvert --patches 2x1 --gap -1 one.spd -o chart.exr
+  for patches in '1025x1 --patch 1024' '1x1025 --gap 1024'; do
+    # shellcheck disable=SC2086 # words
+    fails_cleanly specconvert -g 500:500:1 --patches $patches one.spd -o chart.exr
+    [[ $stderr = *'pixels is too large' ]] || complain "$stderr"
+  done
+  fails_cleanly specconvert --patches 4097x1 one.spd -o chart.exr
+  mapfile -t many < <(yes one.spd | head -n 4097)
+  fails_cleanly specconvert "${many[@]}" -o chart.exr
+  [[ $stderr = *'more than 4096 curves' ]] || complain "$stderr"
+  fails_cleanly specconvert Au -o chart.exr
+  [[ $stderr = *'is a refractive index: an image holds light, reflectance or transmittance' ]] || complain "$stderr"
   no_leftovers . one.spd paint.spd
 }
 
@@ -500,6 +521,15 @@ last_uints() {
   no_leftovers . a.exr
 }
 
+@test "a text of what is not finite is refused, and its place named" {
+  for pattern in nan:2,3,4 inf:2,3,4; do
+    spectral a.exr --pattern $pattern
+    fails_cleanly specconvert a.exr -o a.spd
+    [ "$stderr" = 'specconvert: a.exr: pixel 2,3 is not finite at 480 nm' ] || complain "$stderr"
+  done
+  no_leftovers . a.exr
+}
+
 # What it does not understand passes through
 
 @test "attributes of every type pass through" {
@@ -514,6 +544,16 @@ last_uints() {
   specconvert --no-history --scale 2 --crop 1,1,5,5 b.exr -o d.exr
   [ "$(attributes b.exr)" = "$(attributes d.exr)" ] ||
     complain "$(diff <(attributes b.exr) <(attributes d.exr))"
+}
+
+@test "light that states no unit gets one" {
+  spectral a.exr --without emissiveUnits
+  run ! grep emissiveUnits <<<"$(exrheader a.exr)"
+  specconvert a.exr -o b.exr
+  has_line b.exr 'emissiveUnits (type string): "W.m^-2.sr^-1"'
+  spectral t.exr --kind T --without emissiveUnits
+  specconvert t.exr -o c.exr
+  run ! grep emissiveUnits <<<"$(exrheader c.exr)"
 }
 
 @test "names of more than 31 bytes pass through" {
@@ -543,8 +583,11 @@ last_uints() {
   spectral rgb.exr --channel R --channel G --channel B
   specconvert --crop 1,1,3,3 rgb.exr -o b.exr
   has_channels b.exr B G R
-  fails_cleanly specconvert --scale 2 rgb.exr -o c.exr
-  [[ $stderr = *'no spectral channel'* ]]
+  for change in '--scale 2' '--grid 500:500:1' '--band 500' --to-air '--per band'; do
+    # shellcheck disable=SC2086 # words
+    fails_cleanly specconvert $change rgb.exr -o c.exr
+    [[ $stderr = *'no spectral channel'* ]] || complain "$stderr"
+  done
 }
 
 @test "a part is chosen by number or name, its name stays" {

@@ -183,6 +183,8 @@ wrong_at() {
 @test "a picture of surroundings that is none is told with file, line and column" {
   spectral square.exr --size 4x4
   wrong_at 2:1 'twice as wide as high' WorldBegin 'LightSource "infinite" "string filename" "square.exr"'
+  spectral wide.exr --size 4x2
+  wrong_at 2:13 'a picture of surroundings cannot be stretched' WorldBegin 'Scale 1 2 1 LightSource "infinite" "string filename" "wide.exr"'
   echo 'no picture, but longer than a magic number' >text.exr
   wrong_at 2:1 text.exr WorldBegin 'LightSource "infinite" "string filename" "text.exr"'
 }
@@ -535,6 +537,15 @@ wrong_at() {
     is("film3.cover", 0); is("film3.id", 0)
     for (name in to) if (name ~ /^S0/) is(name, 0)
     is("through.S0.500,000000nm", 1)'
+}
+
+@test "behind a film on a metal there is nothing, neither another film nor the sky" {
+  scene a.pbrt WorldBegin "$sky" 'Translate 0 0 3 Material "thinfilm" "string stack" "air | 1.5 200nm | 0.5+3i"' \
+    'ReverseOrientation Shape "disk" "float radius" 4' 'Translate 0 0 1 Shape "disk" "float radius" 4'
+  render --spp 1 --defer film a.pbrt -o b.exr
+  pixel_holds b.exr b.exr 3,2 '
+    is("film1.cover", 1); is("film2.cover", 0); is("film1.mirror.S0.600,000000nm", 1.25)
+    for (name in to) if (name ~ /^(through|film2)/ && to[name] != 0) wrong(name)'
 }
 
 # --supersample

@@ -888,6 +888,33 @@ test_chances(void **state)
 	near(sum, 1, 1e-5, "the sum of all chances");
 }
 
+/* A light is chosen half by its power, half at random: of 1 and 3, 3 in 8 and 5 in 8. */
+static void
+test_chances_by_power(void **state)
+{
+	struct fixture *f = *state;
+	const struct spec_vector point = {0, 0, 1};
+	int seen[2] = {0};
+
+	add_light(f, SPEC_SCENE_POINT, 1);
+	add_light(f, SPEC_SCENE_POINT, 3);
+	open_lights(f);
+	for (uint32_t i = 0; i < 64; i++) {
+		float room[BANDS];
+		struct spec_light_sample light = {.radiance.room = room};
+		struct spec_sampler sampler;
+		int bright;
+
+		spec_sampler_start(&sampler, 2, 0, 0, i);
+		assert_true(spec_lights_sample(f->lights, point, &sampler, &light));
+		bright = light.radiance.value[0] > 2;
+		near(value_of(&light, 0), bright ? 3 / .625 : 1 / .375, ROUNDED,
+			"what is sent, over the chance");
+		seen[bright] = 1;
+	}
+	assert_true(seen[0] && seen[1]);
+}
+
 /* What sends nothing is never chosen, and does not take from what others send. */
 static void
 test_dark_lights(void **state)
@@ -975,6 +1002,7 @@ main(void)
 		TEST(test_densities),
 		TEST(test_sum),
 		TEST(test_chances),
+		TEST(test_chances_by_power),
 		TEST(test_dark_lights),
 		TEST(test_small_lights),
 	};
