@@ -209,7 +209,7 @@ $(TESTHELPERS): $(BUILD)/tests/%: $(BUILD)/obj/tests/helper/%.o $(LIBRARY)
 # Running.
 
 check: all $(UNITTESTS) $(TESTHELPERS) $(BUILD)/tests/faults.so
-	@tests/check $(BUILD) unit rooms bats pages figures faults
+	@tests/check $(BUILD) faults bats pages figures rooms unit
 
 unit: $(UNITTESTS) $(PLUGIN) $(PLACES) $(DATA) $(TABLE)
 	@tests/check $(BUILD) unit
