@@ -199,6 +199,21 @@ END
   is "$last" band.ppm 0 0
 }
 
+@test "--stokes: values per band weigh as those per nm of the same light" {
+  # bins of 10 and of 190 nm, of which the narrow one is polarised
+  for quantity in nm band; do
+    spectral grid.exr --kind stokes --size 3x2 --grid 500:600:100 --attribute 'spec:bins=495 505 695' \
+      --quantity "radiance per $quantity"
+    width=1
+    [ $quantity = nm ] || width='(nm == 500 ? 10 : 190)'
+    speccomp --expr "$width * (stokes == 0 ? 1 : stokes == 1 && nm == 500 ? 1 : 0)" grid.exr -o s.exr
+    spec2rgb --stokes dop --range 0..0.1 s.exr -o $quantity.ppm
+    spec2rgb --stokes dop --range 0..1 s.exr -o high.ppm
+    run ! cmp -s $quantity.ppm high.ppm
+  done
+  cmp nm.ppm band.ppm
+}
+
 # Layers
 
 @test "--layer: light that arrives at a film, as the picture that it is" {

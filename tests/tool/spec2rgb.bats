@@ -282,6 +282,20 @@ xyz_of() {
   [[ $stderr = *"no X, Y and Z"* ]]
 }
 
+@test "--observer: unequal steps become those of 1 nm" {
+  spectral ramp.exr
+  # shellcheck disable=SC2046
+  camera 2 1 0.5 $(seq 430 660) >regular.spd
+  camera 2 1 0.5 437.5 >unequal.spd
+  for curve in regular unequal; do
+    spec2rgb --observer $curve.spd ramp.exr -o $curve.exr
+    layers --print 7,3 $curve.exr | sort | awk '{ print $2 }' | paste -sd ' ' >$curve.txt
+  done
+  read -r b g r <regular.txt
+  awk -v r="$r" -v g="$g" -v b="$b" '{ exit !(r > 0.1 && ($1 / b - 1) ^ 2 < 1e-12 && ($2 / g - 1) ^ 2 < 1e-12 && ($3 / r - 1) ^ 2 < 1e-12) }' unequal.txt ||
+    complain "$(<unequal.txt) instead of $(<regular.txt)"
+}
+
 @test "--observer v-scotopic sees greys, cie2006-lms-2 its cones" {
   spectral ramp.exr
   spec2rgb --observer v-scotopic ramp.exr -o night.exr
@@ -937,6 +951,22 @@ END
   layers --print 0,0 black.exr | near '0.34567 0.35851 0' 1e-5 x y Y
 }
 
+@test "HDR holds floats of all sizes, and nothing below 0" {
+  command -v oiiotool >/dev/null || skip 'no oiiotool'
+  four
+  spec2rgb -e 20 four.exr -o four.exr.exr
+  spec2rgb -e 20 four.exr -o four.hdr
+  layers --print 0,0 four.exr.exr | awk '$2 < -1e4 { below = 1 } END { exit !below }'
+  oiiotool --info --stats four.hdr >stats
+  grep -q 'Stats Min: 0.0* 0.0* 0.0* ' stats || complain "$(<stats)"
+  # Radiance's mantissa has 8 bits.
+  for name in R G B; do
+    for at in 0,0 1,0 0,1 1,1; do layers --print $at four.exr.exr | awk -v n=$name '$1 == n { print $2 }'; done | sort -g | tail -n 1
+  done | paste -sd ' ' >most
+  sed -n 's/.*Stats Max: \([^(]*\).*/\1/p' stats | paste -d ' ' - most |
+    awk '{ for (i = 1; i <= 3; i++) { off = $i / $(i + 3) - 1; if (off * off > 1e-4) exit 1 } }' || complain "$(<stats)" "$(<most)"
+}
+
 # Exposure, tone, gamut, dither
 
 # Grey of 4, 1, 0.25 and 0.0625 in four pixels, as light.
@@ -1157,6 +1187,11 @@ close() {
   exrheader x.exr | { run ! grep whiteLuminance; }
   spec2rgb -v --tone reinhard light.exr -o x.exr 2>said
   exrheader x.exr | { run ! grep whiteLuminance; }
+  for option in '-e auto' '--gamut scale'; do
+    # shellcheck disable=SC2086 # two words
+    spec2rgb -v $option light.exr -o x.exr 2>said
+    exrheader x.exr | { run ! grep whiteLuminance; }
+  done
   spec2rgb -v light.exr -o x.png 2>said
   [ "$(wc -l <said)" -eq 1 ]
   spec2rgb light.exr -o y.png
