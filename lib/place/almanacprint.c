@@ -63,7 +63,8 @@ static void
 print_sun(FILE *stream, const struct spec_almanac *almanac)
 {
 	const struct spec_solar *solar = &almanac->solar;
-	double equation_s = fabs(solar->equation_of_time_min) * 60;
+	/* In tenths of a second: 59.96 s are a minute, not "60.0 s". */
+	long equation = lround(fabs(solar->equation_of_time_min) * 600);
 
 	fprintf(stream,
 		LABEL "azimuth %.5f, zenith %.5f, elevation %.5f deg, without air\n", "sun",
@@ -83,9 +84,9 @@ print_sun(FILE *stream, const struct spec_almanac *almanac)
 		solar->distance_au, solar->radius_deg);
 	fprintf(stream, LABEL "%.5f, hour angle %.5f deg\n", "declination",
 		solar->declination_deg, solar->hour_angle_deg);
-	fprintf(stream, LABEL "%c%d min %04.1f s, apparent less mean solar time\n",
-		"equation", solar->equation_of_time_min < 0 ? '-' : '+',
-		(int)(equation_s / 60), fmod(equation_s, 60));
+	fprintf(stream, LABEL "%c%ld min %04.1f s, apparent less mean solar time\n",
+		"equation", solar->equation_of_time_min < 0 ? '-' : '+', equation / 600,
+		(double)(equation % 600) / 10);
 }
 
 static const char *

@@ -36,6 +36,12 @@ nearly() {
     '2003-10-17T19:30:30.000Z 290 32 known' ]
 }
 
+@test "the equation of time is in minutes and seconds, of which none is 60" {
+  # -0.99987 min
+  specinfo --sun '50N 4E' --time 2026-04-11T12:50:00Z | grep -qF '  equation      -1 min 00.0 s, apparent'
+  specinfo --sun '50N 4E' --time 2026-04-11T13:10:00Z | grep -qE '  equation      -0 min 59.8 s, apparent'
+}
+
 @test "one place in every spelling" {
   # shellcheck disable=SC1111 # marks of minutes and seconds, not quotes
   for place in '39.742476 -105.1786 1830.14m' "39d44'32.9136\"N 105d10'42.96\"W 1.83014km" \
@@ -241,6 +247,22 @@ colour() {
     nearly "$green" .33333 .0002
     nearly "$blue" .33333 .0002
   done
+  # A coloured surface tells Bradford's from the others, and that other air is another light.
+  specconvert -g 380:780:5 --extrapolate constant --patches 1x1 15-red --place '50.875N 4.75E' \
+    --time 2005-05-17T12:00+02:00 | specconvert --illuminate daylight - -o red.exr
+  for adapt in daylight daylight:bradford daylight:cat16 daylight,turbidity=9 daylight,turbidity=9:bradford; do
+    spec2rgb --adapt $adapt red.exr -o "$adapt.exr"
+  done
+  answers() { layers --print 0,0 "$1.exr" | cut -d ' ' -f 2 | xargs; }
+  [ "$(answers daylight)" = "$(answers daylight:bradford)" ]
+  [ "$(answers daylight)" != "$(answers daylight:cat16)" ]
+  [ "$(answers daylight)" != "$(answers daylight,turbidity=9)" ]
+  [ "$(answers daylight,turbidity=9)" = "$(answers daylight,turbidity=9:bradford)" ]
+  specconvert --illuminate daylight,turbidity=9 white.exr -o turbid.exr
+  read -r red green blue < <(colour --adapt daylight,turbidity=9 turbid.exr)
+  nearly "$red" .33333 .0002
+  nearly "$green" .33333 .0002
+  nearly "$blue" .33333 .0002
   # Under that light as the illuminant, reflectance has the same colour, and is adapted as ever.
   nearly "$(colour -e -1 --illuminant daylight white.exr | cut -d ' ' -f 1)" \
     "$(colour lit.exr | cut -d ' ' -f 1)" .0005
