@@ -1,6 +1,7 @@
 #include "place/coordinates.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "image/plugin.h"
@@ -89,6 +90,14 @@ spec_place_format(const struct spec_place *place, enum spec_place_form form,
 	return status == SPEC_OK
 		       ? places->format(place, form, written, SPEC_PLACE_WRITTEN, error)
 		       : status;
+}
+
+void
+spec_place_brief(const struct spec_place *place, char written[SPEC_PLACE_WRITTEN])
+{
+	(void)snprintf(written, SPEC_PLACE_WRITTEN, "%.7g %c %.7g %c",
+		fabs(place->latitude_deg), place->latitude_deg < 0 ? 'S' : 'N',
+		fabs(place->longitude_deg), place->longitude_deg < 0 ? 'W' : 'E');
 }
 
 enum spec_status

@@ -47,6 +47,9 @@ enum spec_status spec_place_format(const struct spec_place *place,
 	enum spec_place_form form, char written[SPEC_PLACE_WRITTEN],
 	struct spec_error *error);
 
+/* "50.88 N 4.7 E": degrees to seven digits, without its altitude. */
+void spec_place_brief(const struct spec_place *place, char written[SPEC_PLACE_WRITTEN]);
+
 /*
  * Earth-centred, earth-fixed coordinates [m]: x towards 0 N 0 E, y towards 0 N 90 E, z
  * towards the north pole. axes, which may be null: rows x, y, z; columns the unit vectors

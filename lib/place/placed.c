@@ -136,14 +136,13 @@ spec_placed_print(FILE *stream, const struct spec_image *image)
 {
 	struct spec_place place;
 	struct spec_instant instant;
-	char time[SPEC_INSTANT_WRITTEN];
+	char time[SPEC_INSTANT_WRITTEN], where[SPEC_PLACE_WRITTEN];
 
 	if (spec_placed_of_image(image, "", &place, &instant, NULL) != SPEC_OK)
 		return;
 	spec_instant_format(&instant, 0, time);
-	fprintf(stream, "  %-13s %s at %.7g %s %.7g %s", "taken", time,
-		fabs(place.latitude_deg), place.latitude_deg < 0 ? "S" : "N",
-		fabs(place.longitude_deg), place.longitude_deg < 0 ? "W" : "E");
+	spec_place_brief(&place, where);
+	fprintf(stream, "  %-13s %s at %s", "taken", time, where);
 	if (spec_image_attribute(image, "altitude"))
 		fprintf(stream, ", %.6g m", place.altitude_m);
 	fputc('\n', stream);

@@ -236,22 +236,13 @@ spec_sunlight_at(const struct spec_place *place, const struct spec_instant *inst
 
 /* ---- light ---- */
 
-/* "50.88 N 4.7 E" */
-static void
-write_place(const struct spec_place *place, char *text, size_t room)
-{
-	snprintf(text, room, "%.7g %c %.7g %c", fabs(place->latitude_deg),
-		place->latitude_deg < 0 ? 'S' : 'N', fabs(place->longitude_deg),
-		place->longitude_deg < 0 ? 'W' : 'E');
-}
-
 enum spec_status
 spec_sunlight_sun(const struct spec_sunlight *sunlight, struct spec_clearsky_sun *sun,
 	struct spec_error *error)
 {
 	struct spec_air air = spec_air_standard(sunlight->place.altitude_m);
 	struct spec_solar solar;
-	char place[64], instant[SPEC_INSTANT_WRITTEN];
+	char place[SPEC_PLACE_WRITTEN], instant[SPEC_INSTANT_WRITTEN];
 	enum spec_status status;
 
 	air.pressure_hpa = sunlight->atmosphere.pressure_hpa;
@@ -267,7 +258,7 @@ spec_sunlight_sun(const struct spec_sunlight *sunlight, struct spec_clearsky_sun
 		solar.zenith_refracted_deg, solar.azimuth_deg, solar.distance_au};
 	if (sun->zenith_deg < 90)
 		return SPEC_OK;
-	write_place(&sunlight->place, place, sizeof place);
+	spec_place_brief(&sunlight->place, place);
 	spec_instant_format(&sunlight->instant, 0, instant);
 	return spec_error_set(error, SPEC_ERANGE,
 		"at %s on %s the sun's centre is %.2f degrees below the horizon, and the light of "
@@ -280,10 +271,10 @@ describe(const struct spec_sunlight *sunlight, const struct spec_clearsky_sun *s
 	const struct spec_curve *clear, struct spec_curve *curve, struct spec_error *error)
 {
 	static const char *const what[] = {"Sun", "Clear sky", "Sun and clear sky"};
-	char place[64], instant[SPEC_INSTANT_WRITTEN], title[256];
+	char place[SPEC_PLACE_WRITTEN], instant[SPEC_INSTANT_WRITTEN], title[256];
 	enum spec_status status;
 
-	write_place(&sunlight->place, place, sizeof place);
+	spec_place_brief(&sunlight->place, place);
 	spec_instant_format(&sunlight->instant, 0, instant);
 	snprintf(title, sizeof title, "%s at %s, %s, the sun %.2f degrees high",
 		what[sunlight->part], place, instant, 90 - sun->zenith_deg);
