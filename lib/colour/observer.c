@@ -52,16 +52,18 @@ spec_observer_is_xyz(const struct spec_curve *observer)
 	return 0;
 }
 
-static int
-has_equal_steps(const struct spec_curve *curve)
+/* The first row that is not where equal steps have it, or their number. */
+static size_t
+first_unequal(const struct spec_curve *curve)
 {
 	const double *w = curve->wavelength_nm;
 	double step = (w[curve->count - 1] - w[0]) / (double)(curve->count - 1);
+	size_t i = 0;
 
-	for (size_t i = 0; i < curve->count; i++)
-		if (!(fabs(w[i] - (w[0] + (double)i * step)) <= STEP_TOLERANCE * step))
-			return 0;
-	return 1;
+	while (i < curve->count &&
+		fabs(w[i] - (w[0] + (double)i * step)) <= STEP_TOLERANCE * step)
+		i++;
+	return i;
 }
 
 /* The texts of a curve, and the names of the columns: those of *from. */
@@ -84,7 +86,7 @@ make_regular(
 	const struct spec_curve *from, struct spec_curve *curve, struct spec_error *error)
 {
 	const double *w = from->wavelength_nm, width = w[from->count - 1] - w[0];
-	int regular = has_equal_steps(from);
+	int regular = first_unequal(from) == from->count;
 	size_t steps = from->count - 1;
 	enum spec_status status;
 
@@ -143,20 +145,17 @@ spec_observer_load(const char *name, struct spec_curve *observer, struct spec_er
 static enum spec_status
 check_observer(const struct spec_curve *observer, struct spec_error *error)
 {
-	const double *w = observer->wavelength_nm;
-	size_t i, n = observer->count;
-	double step;
+	size_t unequal;
 
-	if (observer->columns < 3 || n < 2)
+	if (observer->columns < 3 || observer->count < 2)
 		return spec_error_set(error, SPEC_EFORMAT,
 			"observer '%s' is no table of x, y and z",
 			spec_curve_name(observer));
-	step = (w[n - 1] - w[0]) / (double)(n - 1);
-	for (i = 0; i < n; i++)
-		if (!(fabs(w[i] - (w[0] + (double)i * step)) <= STEP_TOLERANCE * step))
-			return spec_error_set(error, SPEC_EFORMAT,
-				"observer '%s' has unequal steps at %g nm",
-				spec_curve_name(observer), w[i]);
+	unequal = first_unequal(observer);
+	if (unequal < observer->count)
+		return spec_error_set(error, SPEC_EFORMAT,
+			"observer '%s' has unequal steps at %g nm",
+			spec_curve_name(observer), observer->wavelength_nm[unequal]);
 	return SPEC_OK;
 }
 

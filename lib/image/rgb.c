@@ -46,19 +46,6 @@ power_at(const struct spec_curve *illuminant, double wavelength_nm, double *powe
 		illuminant, 0, SPEC_EXTRAPOLATE_ZERO, &wavelength_nm, 1, power, error);
 }
 
-static size_t
-nearest_band(const struct spec_image *image, double wavelength_nm)
-{
-	size_t best = 0;
-
-	for (size_t i = 1; i < image->bands; i++) {
-		if (fabs(image->wavelength_nm[i] - wavelength_nm) <
-			fabs(image->wavelength_nm[best] - wavelength_nm))
-			best = i;
-	}
-	return best;
-}
-
 /* Light of the wavelength in that leaves at the wavelength out. */
 static enum spec_status
 add_bispectral(const struct spec_image *image, const struct spec_rgb_setup *setup,
@@ -74,10 +61,11 @@ add_bispectral(const struct spec_image *image, const struct spec_rgb_setup *setu
 		const struct spec_channel *channel = &image->channel[i];
 		size_t out;
 		double power;
+		int same;
 
 		if (channel->role != SPEC_ROLE_BISPECTRAL)
 			continue;
-		out = nearest_band(image, channel->reradiated_nm);
+		out = spec_image_nearest_band(image, channel->reradiated_nm, &same);
 		status = power_at(setup->illuminant, channel->wavelength_nm, &power, error);
 		terms->channel[terms->count] = i;
 		for (size_t j = 0; j < 3; j++)
