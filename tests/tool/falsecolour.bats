@@ -356,6 +356,7 @@ END
   fails_cleanly spec2rgb --range 0..1 x.exr -o x.png
   fails_cleanly spec2rgb --colour-map grey --layer through flat.exr -o x.png
   fails_cleanly spec2rgb --expr b550 --stokes dop x.exr -o x.png
+  [[ $stderr = *'--expr and --stokes exclude each other' ]]
   for option in '-e 1' '--illuminant A' '--space p3' '--tone filmic' '--gamut scale' --dither '--model hsv' '--adapt cat16' '--transfer linear' '--lod 2' '--step 100'; do
     # shellcheck disable=SC2086 # an option and its argument
     fails_cleanly spec2rgb --band 550 $option x.exr -o x.png

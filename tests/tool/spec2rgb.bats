@@ -646,7 +646,7 @@ END
   spectral a.exr
   fails_cleanly spec2rgb --exposure 1x a.exr -o a.png
   [[ $stderr = *exposure* ]]
-  fails_cleanly spec2rgb --exposure nan a.exr -o a.png
+  for value in nan 100.1 -101; do fails_cleanly spec2rgb --exposure $value a.exr -o a.png; done
   fails_cleanly spec2rgb --bits eight a.exr -o a.png
   fails_cleanly spec2rgb --observer 1932 a.exr -o a.png
   [[ $stderr = *1932* ]]
@@ -865,6 +865,7 @@ near() {
   [[ $stderr = *'floats stay linear' ]]
   fails_cleanly spec2rgb --adapt cat97 a.exr -o a.png
   fails_cleanly spec2rgb --model hsv --space p3 a.exr -o x.exr
+  fails_cleanly spec2rgb --model hsv --transfer linear a.exr -o x.exr
   no_leftovers . a.exr
 }
 
