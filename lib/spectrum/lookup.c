@@ -18,6 +18,7 @@
 
 #define SUFFIX ".spd"
 #define SHARE "../share/spectools/spectra"
+#define LONGEST_LAMP sizeof "illuminants/FL12.12"
 
 struct entry {
 	char *name; /* as in "illuminants/D65" */
@@ -253,6 +254,25 @@ find(const struct catalogue *catalogue, const char *name,
 	return best;
 }
 
+/* "F4" and "F3.1" are what "FL4" and "FL3.1" were called; whether name is such a lamp's. */
+static int
+find_fluorescent(const char *name, char full[LONGEST_LAMP])
+{
+	size_t whole = strspn(name + (*name != '\0'), "0123456789"), part = 0;
+	const char *end = name + 1 + whole;
+
+	if ((*name != 'F' && *name != 'f') || whole < 1 || whole > 2)
+		return 0;
+	if (*end == '.') {
+		part = strspn(end + 1, "0123456789");
+		end += 1 + part;
+	}
+	if (*end || part > 2)
+		return 0;
+	snprintf(full, LONGEST_LAMP, "illuminants/FL%s", name + 1);
+	return 1;
+}
+
 /* The name to ask for instead, or null if none is near. */
 static const char *
 suggest(const struct catalogue *catalogue, const char *name)
@@ -313,9 +333,12 @@ find_path(const struct catalogue *catalogue, const char *name, char **path,
 	struct spec_error *error)
 {
 	const struct entry *other, *entry = find(catalogue, name, strcmp, &other);
+	char lamp[LONGEST_LAMP];
 
 	if (!entry)
 		entry = find(catalogue, name, strcasecmp, &other);
+	if (!entry && find_fluorescent(name, lamp))
+		entry = find(catalogue, lamp, strcmp, &other);
 	if (!entry)
 		return fail_missing(catalogue, name, error);
 	if (other)
@@ -449,9 +472,18 @@ spec_lookup_light(const char *name, struct spec_curve *curve, struct spec_error 
 {
 	enum spec_status status = spec_lookup_curve(name, curve, error);
 
+	struct spec_curve lamp;
+	char full[LONGEST_LAMP];
+
 	if (status != SPEC_OK || spec_curve_is_light(curve))
 		return status;
-	return refuse(name, curve, "light", error);
+	/* F5 is a glass, too. */
+	if (!find_fluorescent(name, full) ||
+		spec_lookup_curve(full, &lamp, NULL) != SPEC_OK)
+		return refuse(name, curve, "light", error);
+	spec_curve_free(curve);
+	*curve = lamp;
+	return SPEC_OK;
 }
 
 enum spec_status

@@ -21,7 +21,8 @@
  *    something that is no folder is there;
  * 2. the file of that full name, or whose full name ends in '/' and name, in the first
  *    root that has one;
- * 3. the same with upper and lower case taken as equal.
+ * 3. the same with upper and lower case taken as equal;
+ * 4. the lamp "FL4" or "FL3.1" for "F4" or "F3.1", as they were called.
  * SPEC_EUSAGE: no such spectrum (the message says where it was looked for, and the nearest
  * name if there is one), or two in one root (it names both), or a formula that is none.
  * SPEC_ERANGE: a temperature beyond the formula's range. Other statuses as spec_spd_load.
@@ -55,7 +56,10 @@ int spec_lookup_is_computed(const char *name);
  */
 enum spec_status spec_lookup_path(const char *name, char **path, struct spec_error *error);
 
-/* As spec_lookup_curve; SPEC_EUSAGE also where the curve is no light, such as an index. */
+/*
+ * As spec_lookup_curve; SPEC_EUSAGE also where the curve is no light, such as an index. Here
+ * "F5" is the lamp, not the glass.
+ */
 enum spec_status spec_lookup_light(
 	const char *name, struct spec_curve *curve, struct spec_error *error);
 

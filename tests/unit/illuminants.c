@@ -406,6 +406,44 @@ other_temperatures_are_refused(void **state)
 	assert_contains(error.message, "is a daylight component, not light");
 }
 
+/* CIE 15:2004 calls FL what was F before; F5 is a glass of SCHOTT's, too. */
+static void
+lamps_have_their_older_names(void **state)
+{
+	static const char *const none[] = {"F", "F0", "F13", "F3.", "F3.16", "F3.1.1",
+		"F123", "F4x", "F3.x", "F3.123", "f 4"};
+	struct spec_curve lamp, older;
+	struct spec_error error;
+
+	(void)state;
+	for (int i = 1; i <= 27; i++) {
+		char name[24], old[16];
+
+		if (i <= 12)
+			snprintf(old, sizeof old, "%c%d", i % 2 ? 'F' : 'f', i);
+		else
+			snprintf(old, sizeof old, "F3.%d", i - 12);
+		snprintf(name, sizeof name, "FL%s", old + 1);
+		light(name, &lamp);
+		light(old, &older);
+		assert_int_equal(older.count, lamp.count);
+		assert_memory_equal(
+			older.value, lamp.value, lamp.count * sizeof *lamp.value);
+		spec_curve_free(&lamp);
+		spec_curve_free(&older);
+	}
+	for (size_t i = 0; i < COUNT(none); i++) {
+		assert_int_equal(spec_lookup_light(none[i], &lamp, &error), SPEC_EUSAGE);
+		assert_contains(error.message, none[i]);
+		assert_null(lamp.value);
+	}
+	assert_int_equal(spec_lookup_curve("F5", &lamp, &error), SPEC_OK);
+	assert_string_equal(lamp.quantity, "refractive index");
+	spec_curve_free(&lamp);
+	assert_int_equal(spec_lookup_light("glass/F5", &lamp, &error), SPEC_EUSAGE);
+	assert_contains(error.message, "is a refractive index, not light");
+}
+
 int
 main(void)
 {
@@ -420,6 +458,7 @@ main(void)
 		cmocka_unit_test(black_body_peaks_after_wien),
 		cmocka_unit_test(black_bodies_of_any_temperature_are_finite),
 		cmocka_unit_test(formulas_are_found_like_names),
+		cmocka_unit_test(lamps_have_their_older_names),
 		cmocka_unit_test(other_temperatures_are_refused),
 	};
 
