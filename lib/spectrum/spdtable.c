@@ -4,8 +4,10 @@
 #include <errno.h>
 #include <math.h>
 #include <stdarg.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 #include "base/memory.h"
 #include "base/number.h"
@@ -25,6 +27,7 @@ struct parser {
 	size_t length;
 	struct spec_spd_table *table;
 	char *representation, *interpolation, *range; /* null: not seen */
+	size_t range_line;
 };
 
 /* By the order of enum spec_spectrum_kind; null: wavelength_nm and others. */
@@ -120,6 +123,26 @@ count_columns(const struct parser *parser, const char *text, size_t *count)
 	return SPEC_OK;
 }
 
+/*
+ * From behind the name of the wavelengths in the line of names of a CSV file, or null where
+ * it has none: other programs write a blank, brackets or no unit.
+ */
+static const char *
+skip_first_name(const char *text)
+{
+	static const char *const names[] = {FIRST_COLUMN, "wavelength (nm)",
+		"wavelength(nm)", "wavelength [nm]", "wavelength[nm]", "wavelength"};
+
+	for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
+		size_t length = strlen(names[i]);
+
+		if (strncasecmp(text, names[i], length) == 0 &&
+			spec_spd_word(text + length) == 0)
+			return text + length;
+	}
+	return NULL;
+}
+
 /* Keeps the names of the columns until the table is complete. */
 static enum spec_status
 parse_columns(struct parser *parser, const char *text)
@@ -135,6 +158,22 @@ parse_columns(struct parser *parser, const char *text)
 	parser->table->width = count;
 	parser->table->columns = spec_memory_text(text, strlen(text), parser->error);
 	return parser->table->columns ? SPEC_OK : SPEC_ENOMEM;
+}
+
+/* The same of a CSV file's line of names, from behind the first. */
+static enum spec_status
+parse_names(struct parser *parser, const char *rest)
+{
+	size_t size = strlen(FIRST_COLUMN) + strlen(rest) + 1;
+	char *names = spec_memory_new(size, 1, "names of columns", parser->error);
+	enum spec_status status;
+
+	if (!names)
+		return SPEC_ENOMEM;
+	snprintf(names, size, "%s%s", FIRST_COLUMN, rest);
+	status = parse_columns(parser, names);
+	free(names);
+	return status;
 }
 
 static enum spec_status
@@ -184,7 +223,7 @@ take_key(struct parser *parser, char **value)
 	if (value == &parser->representation)
 		return parse_representation(parser);
 	if (value == &parser->range)
-		return parse_range(parser);
+		parser->range_line = parser->line; /* what it is of comes later, perhaps */
 	if (value == &parser->interpolation &&
 		spec_interpolate_parse(*value, &parser->table->interpolate, NULL) !=
 			SPEC_OK)
@@ -398,9 +437,8 @@ parse_line(struct parser *parser)
 	if (*text == '#')
 		return parse_header(parser, text + 1);
 	/* The first line of a CSV file. */
-	if (parser->table->rows == 0 &&
-		strncmp(text, FIRST_COLUMN, strlen(FIRST_COLUMN)) == 0)
-		return parse_columns(parser, text);
+	if (parser->table->rows == 0 && skip_first_name(text))
+		return parse_names(parser, skip_first_name(text));
 	if (strncmp(text, LINE, strlen(LINE)) == 0 && spec_spd_word(text) == strlen(LINE))
 		return parse_spectral_line(parser, text + strlen(LINE));
 	return parse_row(parser, text);
@@ -444,11 +482,16 @@ finish(struct parser *parser)
 	if (status == SPEC_OK && table->rows == 0)
 		status = spec_error_set(parser->error, SPEC_EFORMAT,
 			"%s:%zu: the file ends without a row", parser->name, parser->line);
-	if (status == SPEC_OK &&
+	/* Other programs' tables may say in their own words where they begin and end. */
+	if (status == SPEC_OK && parser->representation &&
 		(table->kind == SPEC_SPECTRUM_FOURIER) != (parser->range != NULL))
 		status = spec_error_set(parser->error, SPEC_EFORMAT, "%s: %s", parser->name,
 			parser->range ? "a range, which only a Fourier spectrum has"
 				      : "a Fourier spectrum without a range");
+	if (status == SPEC_OK && table->kind == SPEC_SPECTRUM_FOURIER) {
+		parser->line = parser->range_line;
+		status = parse_range(parser);
+	}
 	if (status == SPEC_OK && parser->interpolation && spec_spd_columns(table->kind))
 		status = spec_error_set(parser->error, SPEC_EFORMAT,
 			"%s: an interpolation, which only samples have", parser->name);

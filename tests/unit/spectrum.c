@@ -172,6 +172,33 @@ spd_reads_plain_pairs_and_csv(void **state)
 	spec_curve_free(&curve);
 }
 
+/* Cameras' curves, say, by who measured them. */
+static void
+spd_reads_the_tables_of_others(void **state)
+{
+	static const char *const first[] = {"wavelength", "Wavelength (nm)",
+		"WAVELENGTH(nm)", "Wavelength [nm]", "wavelength[NM]", "Wavelength_nm"};
+	struct spec_curve curve;
+	struct spec_error error;
+
+	(void)state;
+	for (size_t i = 0; i < sizeof first / sizeof first[0]; i++) {
+		char text[80];
+
+		snprintf(text, sizeof text, "%s,r,g,b\n400,1,2,3\n500,4,5,6\n", first[i]);
+		assert_int_equal(parse(text, &curve, &error), SPEC_OK);
+		assert_int_equal(curve.columns, 3);
+		assert_string_equal(curve.column[0], "r");
+		assert_true(curve.value[1] == 4 && curve.value[5] == 6);
+		spec_curve_free(&curve);
+	}
+	assert_int_equal(
+		parse("# range: 400-500 nm, step 100 nm\n400 1\n500 2\n", &curve, &error),
+		SPEC_OK);
+	assert_true(curve.count == 2 && curve.value[1] == 2);
+	spec_curve_free(&curve);
+}
+
 static void
 spd_refuses_damage(void **state)
 {
@@ -196,6 +223,10 @@ spd_refuses_damage(void **state)
 		{"400 0x10\n", "'0x10' is not a finite number"},
 		{"400 1;2\n", "'1;2' is not a finite number"},
 		{"nm value\n400 1\n", "t.spd:1: 'nm' is not a finite number"},
+		{"wavelength_um,n\n.4,1\n", "t.spd:1: 'wavelength_um' is not a finite"},
+		{"wavelength (um),n\n.4,1\n",
+			"t.spd:2: 2 numbers where the header names 3"},
+		{"wavelength\n400 1\n", "t.spd:1: the columns are not wavelength_nm and"},
 		{"400,,1\n", "a value is missing"},
 		{"400,1,\n", "a value is missing"},
 		{",400,1\n", "a value is missing"},
@@ -967,6 +998,7 @@ main(void)
 		cmocka_unit_test(grid_refuses_nonsense),
 		cmocka_unit_test(spd_reads_a_full_file),
 		cmocka_unit_test(spd_reads_plain_pairs_and_csv),
+		cmocka_unit_test(spd_reads_the_tables_of_others),
 		cmocka_unit_test(spd_refuses_damage),
 		cmocka_unit_test(spd_keeps_its_limits),
 		cmocka_unit_test(spd_reports_the_system),
