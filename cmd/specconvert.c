@@ -202,6 +202,25 @@ parse(struct cli *cli, struct job *job, struct spec_error *error)
 	job->into.patches.grid = job->from.colours.grid = job->change.setup.grid;
 }
 
+/* What is for images in OpenEXR: text, strips and atlases have samples of their own. */
+static enum spec_status
+check_storage(const struct job *job, struct spec_error *error)
+{
+	const struct spec_settings *settings = &job->settings;
+	const char *what = spec_kind_is_text(job->kind) ? "text"
+			   : job->into.strip > 0        ? "a strip"
+			   : job->into.atlas            ? "an atlas"
+							: NULL;
+
+	if (what && settings->half)
+		return spec_error_set(error, SPEC_EUSAGE,
+			"--half is for images in OpenEXR alone, not for %s", what);
+	if (what && !job->into.atlas && settings->compression >= 0)
+		return spec_error_set(error, SPEC_EUSAGE,
+			"--compression is for OpenEXR alone, not for %s", what);
+	return SPEC_OK;
+}
+
 /* The kind of the output: as --format or the suffix says, else as the input is. */
 static enum spec_status
 settle_kind(struct job *job, enum spec_kind input, struct spec_error *error)
@@ -253,6 +272,8 @@ settle_curves(struct job *job, struct spec_error *error)
 		status = settle_kind(job, chart ? SPEC_KIND_IMAGE : SPEC_KIND_SPD, error);
 	if (status == SPEC_OK)
 		status = check_curve_options(job, error);
+	if (status == SPEC_OK)
+		status = check_storage(job, error);
 	return status == SPEC_OK ? spec_placed_check(&job->placed,
 					   job->kind != SPEC_KIND_IMAGE || job->into.atlas,
 					   &job->settings, error)
@@ -487,6 +508,8 @@ convert_image(const struct cli *cli, struct job *job, struct spec_error *error)
 
 	if (status == SPEC_OK)
 		status = settle_kind(job, SPEC_KIND_IMAGE, error);
+	if (status == SPEC_OK)
+		status = check_storage(job, error);
 	if (status == SPEC_OK && job->inputs > 1)
 		status = spec_reader_open_list(
 			&reader, job->input, job->inputs, &job->settings, error);

@@ -521,6 +521,16 @@ last_uints() {
   no_leftovers . a.exr
 }
 
+@test "a text is of the image as it is: what changes it goes before" {
+  spectral a.exr
+  for change in '--crop 0,0,1,1' '--downsample 2' '--grid 400:700:20' '--band 500' --bands-only '--scale 2' '--per band' --to-air '--from-rgb basis'; do
+    # shellcheck disable=SC2086 # words
+    fails_cleanly specconvert $change a.exr -o a.spd
+    [[ $stderr = *'change the image first, then make it text'* ]] || complain "$change: $stderr"
+  done
+  no_leftovers . a.exr
+}
+
 @test "a text of what is not finite is refused, and its place named" {
   for pattern in nan:2,3,4 inf:2,3,4; do
     spectral a.exr --pattern $pattern
@@ -677,6 +687,22 @@ specconvert --crop 0,0,1,1 b.exr -o c.exr  # spectools $version
   spectral a.exr
   fails_cleanly specconvert --compression lzw a.exr -o b.exr
   [[ $stderr = *lzw*'none rle zips zip piz pxr24 b44 b44a'* ]]
+}
+
+@test "--half and --compression are for images in OpenEXR, and not passed over elsewhere" {
+  spectral a.exr
+  for option in --half '--compression zip'; do
+    for output in 'a.exr -o b.spd' 'a.exr -f csv' D65 'F2 --to fourier:9' 'E --strip 2 -o b.exr' 'a.exr -o b.tif'; do
+      # shellcheck disable=SC2086 # words
+      fails_cleanly specconvert $option $output
+      [[ $stderr = *"${option% *} is for "*'OpenEXR alone, not for '* ]] || complain "$stderr"
+    done
+  done
+  fails_cleanly specconvert --half --atlas -g 400:700:5 D65 -o b.exr
+  [[ $stderr = *'not for an atlas' ]] || complain "$stderr"
+  specconvert --compression rle --atlas -g 400:700:5 D65 -o b.exr
+  has_line b.exr 'compression (type compression): run-length encoding'
+  no_leftovers . a.exr b.exr
 }
 
 @test "--half stores the bands as HALF, rounded to nearest" {

@@ -341,6 +341,17 @@ wrong_at() {
   run ! cmp usual.exr 6.exr
 }
 
+@test "from the fifth scattering on a path may end by chance, not before" {
+  # The ray goes to and fro through the middle; each time a fifth is mirrored: (0 + k^2) / (4 + k^2).
+  scene a.pbrt 'Integrator "path" "integer maxdepth" 4' WorldBegin 'AreaLightSource "diffuse" "float L" 1' \
+    'Material "conductor" "float eta" 1 "float k" 1' 'ReverseOrientation Shape "sphere" "float radius" 9'
+  render a.pbrt -o b.exr
+  numbers b.exr | awk '{ for (i = 2; i <= NF; i++) { n++; off = $i - 1.2496; if (off * off > 1e-12) exit 1 } } END { exit n != 4 * 24 }'
+  sed 's/maxdepth" 4/maxdepth" 9/' a.pbrt >c.pbrt
+  render c.pbrt -o d.exr
+  [ "$(numbers d.exr | sed -n 1p | cut -d ' ' -f 2- | tr ' ' '\n' | sort -u | wc -l)" -gt 1 ]
+}
+
 @test "--seed chooses other random numbers, and the same ones again" {
   some a.pbrt
   render a.pbrt -o b.exr
