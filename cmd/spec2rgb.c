@@ -89,6 +89,7 @@ struct job {
 	const struct spec_model *model; /* or null */
 	struct spec_space space;        /* with the transfer function that is used */
 	const char *space_text;         /* or null, as the next */
+	int untold; /* which space it is cannot be seen in the picture */
 	const struct spec_transfer *transfer;
 	struct spec_look look;
 	double exposure;
@@ -437,10 +438,11 @@ develop(struct job *job, struct spec_reader *reader, const struct spec_rgb *rgb,
 	kind.luminance = job->luminance;
 	if (status == SPEC_OK)
 		status = spec_picture_file_open(&file, job->settings.output, &kind,
-			spec_window_width(window), spec_window_height(window), &job->space,
-			error);
+			spec_window_width(window), spec_window_height(window),
+			rgb->raw ? NULL : &job->space, error);
 	if (status != SPEC_OK)
 		return status;
+	job->untold = !rgb->raw && !spec_picture_tells_space(&kind, &job->space);
 	status = spec_develop_run(result, reader, rgb, &job->look, file.picture,
 		kind.sample, &job->settings, error);
 	return spec_picture_file_end(&file, status, error);
@@ -544,6 +546,11 @@ show_colours(struct cli *cli, struct job *job, struct spec_reader *reader,
 	if (!job->settings.quiet && rgb.outside > NOTICEABLE)
 		cli_warn(cli, "%s: %.1f %% of the luminance lies outside its bands", name,
 			100 * rgb.outside);
+	if (!job->settings.quiet && job->untold)
+		cli_warn(cli,
+			"the format cannot tell the space, %s%s%s: who reads it takes it for sRGB",
+			job->space.title, job->transfer ? ", transfer function " : "",
+			job->transfer ? job->transfer->name : "");
 	warn_nonfinite(cli, job, name, seen.nonfinite, seen.first_x, seen.first_y);
 	if (job->account)
 		fprintf(stderr, "%s: %s: %s\n", program.name, name, job->account);

@@ -66,6 +66,13 @@ first_unequal(const struct spec_curve *curve)
 	return i;
 }
 
+int
+spec_observer_is_grey(const struct spec_curve *observer)
+{
+	return strcmp(observer->column[0], observer->column[1]) == 0 &&
+	       strcmp(observer->column[0], observer->column[2]) == 0;
+}
+
 /* The texts of a curve, and the names of the columns: those of *from. */
 static enum spec_status
 name_as(struct spec_curve *curve, const struct spec_curve *from, struct spec_error *error)
@@ -136,6 +143,8 @@ spec_observer_load(const char *name, struct spec_curve *observer, struct spec_er
 			name);
 	else
 		status = make_regular(&curve, observer, error);
+	if (status == SPEC_OK && !*observer->title)
+		status = spec_curve_set_text(&observer->title, name, error);
 	spec_curve_free(&curve);
 	if (status != SPEC_OK)
 		spec_curve_free(observer);

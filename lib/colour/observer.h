@@ -33,6 +33,7 @@ const char *spec_observer_spectrum(const char *name);
  * - or one, a luminous efficiency or a spectral sensitivity: the observer gets it three
  *   times, and so sees greys.
  * Unequal steps become equal ones of at most 1 nm, linear between the curve's samples.
+ * One without a title gets the name for it.
  * Errors:   as spec_lookup_curve; SPEC_EFORMAT: another curve; SPEC_ENOMEM
  */
 enum spec_status spec_observer_load(
@@ -44,6 +45,9 @@ enum spec_status spec_observer_load(
  * are the signals of its sensors.
  */
 int spec_observer_is_xyz(const struct spec_curve *observer);
+
+/* Whether it sees greys: it is one curve, three times. */
+int spec_observer_is_grey(const struct spec_curve *observer);
 
 /*
  * The weights of the bands for X, Y and Z.

@@ -1,12 +1,14 @@
 #include "colour/profile.h"
 
 #include <lcms2.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/memory.h"
 
 #define VERSION 4.3
+#define LONGEST_NAME 64
 #define DATE_OFFSET 24 /* in the header: ICC.1:2010, table 17 */
 
 /* 2026-01-01 00:00:00 in place of the clock's: equal pictures are equal files. */
@@ -38,6 +40,18 @@ write_text(cmsHPROFILE profile, cmsTagSignature tag, const char *text)
 	return written;
 }
 
+/* "Display P3", or "Display P3, linear" where its own function is another. */
+static void
+name_profile(const struct spec_space *space, const struct spec_transfer *transfer,
+	char *name, size_t room)
+{
+	const struct spec_space *known = spec_space_find(space->name, NULL);
+	const struct spec_transfer *own = known ? known->transfer : &spec_transfer_srgb;
+
+	snprintf(name, room, "%s%s%s", space->title, transfer == own ? "" : ", ",
+		transfer == own ? "" : transfer->name);
+}
+
 static cmsHPROFILE
 build(const struct spec_space *space, const struct spec_transfer *transfer)
 {
@@ -47,16 +61,18 @@ build(const struct spec_space *space, const struct spec_transfer *transfer)
 		{space->blue_xy[0], space->blue_xy[1], 1}};
 	cmsToneCurve *curve = build_curve(transfer);
 	cmsHPROFILE profile;
+	char name[LONGEST_NAME];
 
 	if (!curve)
 		return NULL;
+	name_profile(space, transfer, name, sizeof name);
 	profile = cmsCreateRGBProfile(
 		&white, &primaries, (cmsToneCurve *[]){curve, curve, curve});
 	cmsFreeToneCurve(curve);
 	if (!profile)
 		return NULL;
 	cmsSetProfileVersion(profile, VERSION);
-	if (write_text(profile, cmsSigProfileDescriptionTag, space->title) &&
+	if (write_text(profile, cmsSigProfileDescriptionTag, name) &&
 		write_text(profile, cmsSigCopyrightTag, "No copyright, use freely"))
 		return profile;
 	cmsCloseProfile(profile);

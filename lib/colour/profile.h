@@ -9,7 +9,8 @@
 
 /*
  * The profile of a space, as a matrix and the inverse of a transfer function; its white is
- * taken to D50 by Bradford, as ICC.1 asks. The same bytes for the same space.
+ * taken to D50 by Bradford, as ICC.1 asks. The same bytes for the same space. It is called
+ * by the space's title and, where that is not the space's own, the transfer function's name.
  * Given:    space     of coordinates RGB
  *           transfer  of the samples, or null: linear
  * Returned: *bytes, newly allocated, and *size

@@ -30,6 +30,10 @@ static const struct format formats[] = {
 	{"rgbe", SPEC_PICTURE_PLUGIN, {32, 0}, 32},
 };
 
+/* Other suffixes that OpenImageIO takes for TIFF and JPEG. */
+static const char *const with_profile[] = {
+	"tif", "tiff", "tx", "jpg", "jpeg", "jpe", "jif", "jfif", "jfi"};
+
 static const struct format other = {"", SPEC_PICTURE_PLUGIN, {8, 0}, 32};
 
 static const struct format *
@@ -113,6 +117,27 @@ size_t
 spec_picture_sample_bytes(enum spec_picture_sample sample)
 {
 	return sample == SPEC_PICTURE_U8 ? 1 : sample == SPEC_PICTURE_U16 ? 2 : 4;
+}
+
+int
+spec_picture_tells_space(
+	const struct spec_picture_kind *kind, const struct spec_space *space)
+{
+	const struct spec_space *usual = spec_space_find("srgb", NULL);
+	size_t i = 0;
+
+	while (i < COUNT(with_profile) && strcmp(kind->suffix, with_profile[i]) != 0)
+		i++;
+	return kind->format == SPEC_PICTURE_PNG || kind->format == SPEC_PICTURE_EXR ||
+	       i < COUNT(with_profile) ||
+	       (memcmp(space->red_xy, usual->red_xy, sizeof usual->red_xy) == 0 &&
+		       memcmp(space->green_xy, usual->green_xy, sizeof usual->green_xy) ==
+			       0 &&
+		       memcmp(space->blue_xy, usual->blue_xy, sizeof usual->blue_xy) == 0 &&
+		       memcmp(space->white_xy, usual->white_xy, sizeof usual->white_xy) ==
+			       0 &&
+		       (kind->sample == SPEC_PICTURE_FLOAT ||
+			       space->transfer == usual->transfer));
 }
 
 static const struct spec_picture_encoder *

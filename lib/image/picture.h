@@ -56,6 +56,13 @@ struct spec_picture_kind {
 enum spec_status spec_picture_choose(const char *path, int bits,
 	struct spec_picture_kind *kind, struct spec_error *error);
 
+/*
+ * Whether who reads a file of that kind knows its space: the file tells it, or it is what
+ * readers take for granted, sRGB. OpenImageIO 2.4 writes profiles to TIFF and JPEG alone.
+ */
+int spec_picture_tells_space(
+	const struct spec_picture_kind *kind, const struct spec_space *space);
+
 struct spec_picture;
 
 /*

@@ -64,7 +64,14 @@ name_colour(const struct spec_picture *picture)
 	return is_plain(picture) ? "sRGB" : NULL;
 }
 
-/* The usual space needs none: OpenImageIO's word says it. */
+/* OpenImageIO's word for sRGB becomes nothing in a TIFF. */
+static int
+is_tiff(const struct spec_picture *picture)
+{
+	return strncmp(picture->kind.suffix, "tif", 3) == 0;
+}
+
+/* The usual space needs none where OpenImageIO's word says it. */
 static enum spec_status
 make_profile(const struct spec_picture *picture, struct spec_pictures_request *request,
 	struct spec_error *error)
@@ -73,7 +80,7 @@ make_profile(const struct spec_picture *picture, struct spec_pictures_request *r
 	struct state *state = picture->state;
 	enum spec_status status;
 
-	if (!space || is_plain(picture))
+	if (!space || (is_plain(picture) && !is_tiff(picture)))
 		return SPEC_OK;
 	status = spec_profile_make(space,
 		picture->kind.sample == SPEC_PICTURE_FLOAT ? NULL : space->transfer,

@@ -212,6 +212,8 @@ fill_plan(struct spec_rgb *rgb, const struct spec_image *image,
 		status = matrix_of(image, setup, sums.white, m, rgb->white, error);
 	scale *= exp2(setup->exposure);
 	rgb->outside = sums.outside;
+	rgb->raw = !spec_observer_is_xyz(setup->observer) &&
+		   !spec_observer_is_grey(setup->observer);
 	rgb->terms = terms.count;
 	for (size_t i = 0; i < rgb->terms && status == SPEC_OK; i++) {
 		double xyz[3] = {

@@ -42,6 +42,7 @@ struct spec_rgb {
 	size_t *channel;
 	double *weight; /* [3 * terms]: red's, then green's, then blue's */
 	double outside; /* fraction of Y that the image's range leaves out */
+	int raw;        /* red, green and blue are signals of three sensors, of no space */
 	/*
 	 * XYZ, with Y = 1, of what is white: of light, equal energy, or what it was adapted
 	 * to; of reflectance, the perfect reflector, adapted.

@@ -475,6 +475,11 @@ spec_lookup_light(const char *name, struct spec_curve *curve, struct spec_error 
 	struct spec_curve lamp;
 	char full[LONGEST_LAMP];
 
+	if (status == SPEC_OK && !*curve->title) {
+		status = spec_curve_set_text(&curve->title, name, error);
+		if (status != SPEC_OK)
+			spec_curve_free(curve);
+	}
 	if (status != SPEC_OK || spec_curve_is_light(curve))
 		return status;
 	/* F5 is a glass, too. */

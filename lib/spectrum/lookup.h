@@ -58,7 +58,7 @@ enum spec_status spec_lookup_path(const char *name, char **path, struct spec_err
 
 /*
  * As spec_lookup_curve; SPEC_EUSAGE also where the curve is no light, such as an index. Here
- * "F5" is the lamp, not the glass.
+ * "F5" is the lamp, not the glass. A light without a title gets the name for it.
  */
 enum spec_status spec_lookup_light(
 	const char *name, struct spec_curve *curve, struct spec_error *error);

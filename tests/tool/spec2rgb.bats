@@ -296,6 +296,24 @@ xyz_of() {
     complain "$(<unequal.txt) instead of $(<regular.txt)"
 }
 
+@test "signals of sensors are of no space, and their curve is called by its file" {
+  spectral half.exr --kind T --grid 400:700:10 --pattern constant:0.5
+  printf '%s\n' wavelength,red,green,blue 400,0,0,1 500,0,1,0 600,1,0,0 >camera.csv
+  printf '%s\n' '# quantity: spectral sensitivity' '400 0' '500 1' '600 0' >grey.csv
+  printf '%s\n' '400 1' '700 2' >lamp.csv
+  spec2rgb -v --observer camera.csv --illuminant lamp.csv half.exr -o raw.exr 2>said
+  grep -q '; observer camera.csv, by 100 nm; illuminant lamp.csv; ' said
+  exrheader raw.exr | { run ! grep chromaticities; }
+  spec2rgb --observer camera.csv half.exr -o raw.png
+  [ -z "$(chunk raw.png sRGB)$(chunk raw.png gAMA)$(chunk raw.png cHRM)$(chunk raw.png iCCP)" ]
+  spec2rgb --observer camera.csv --space p3 half.exr -o raw.ppm 2>said
+  [ ! -s said ]
+  spec2rgb --observer grey.csv half.exr -o grey.exr
+  exrheader grey.exr | grep -q chromaticities
+  spec2rgb --observer grey.csv half.exr -o grey.png
+  [ -n "$(chunk grey.png sRGB)" ]
+}
+
 @test "--observer v-scotopic sees greys, cie2006-lms-2 its cones" {
   spectral ramp.exr
   spec2rgb --observer v-scotopic ramp.exr -o night.exr
@@ -934,9 +952,16 @@ END
     oiiotool --info -v p3.$suffix | grep -q 'ICCProfile:profile_description: "Display P3"' || complain "$suffix"
     spec2rgb --space rec2020 a.exr -o wide.$suffix
     oiiotool --info -v wide.$suffix | grep -q 'ICCProfile:profile_description: "ITU-R BT.2020"' || complain "$suffix"
-    spec2rgb a.exr -o srgb.$suffix
-    run ! grep ICCProfile <(oiiotool --info -v srgb.$suffix)
   done
+  for suffix in png jpg; do
+    spec2rgb a.exr -o srgb.$suffix
+    oiiotool --info -v srgb.$suffix | { run ! grep ICCProfile; }
+  done
+  # TIFF has no other word for it.
+  spec2rgb a.exr -o srgb.tif
+  oiiotool --info -v srgb.tif | grep -q 'ICCProfile:profile_description: "sRGB"'
+  spec2rgb --bits 32 a.exr -o srgb.tif
+  oiiotool --info -v srgb.tif | grep -q 'ICCProfile:profile_description: "sRGB, linear"'
   spec2rgb --space acescg --bits 32 a.exr -o linear.tif
   oiiotool --info -v linear.tif | grep -q 'ICCProfile:profile_description: "ACEScg"'
 }
@@ -966,6 +991,29 @@ END
   done | paste -sd ' ' >most
   sed -n 's/.*Stats Max: \([^(]*\).*/\1/p' stats | paste -d ' ' - most |
     awk '{ for (i = 1; i <= 3; i++) { off = $i / $(i + 3) - 1; if (off * off > 1e-4) exit 1 } }' || complain "$(<stats)" "$(<most)"
+}
+
+@test "a format that cannot tell the picture's space: one warning" {
+  spectral a.exr
+  spec2rgb --space p3 a.exr -o a.ppm 2>said
+  [ "$(<said)" = "spec2rgb: warning: the format cannot tell the space, Display P3: who reads it takes it for sRGB" ]
+  spec2rgb --transfer linear a.exr -o a.bmp 2>said
+  [ "$(<said)" = "spec2rgb: warning: the format cannot tell the space, sRGB, transfer function linear: who reads it takes it for sRGB" ]
+  for format in hdr webp tga; do
+    spec2rgb --space rec2020 a.exr -o a.$format 2>said
+    [ "$(wc -l <said)" -eq 1 ] || complain "$format"
+    spec2rgb a.exr -o a.$format 2>said
+    [ ! -s said ] || complain "$format"
+  done
+  # The floats of HDR are linear, and Rec.709 has sRGB's primaries.
+  spec2rgb --space rec709 a.exr -o a.hdr 2>said
+  [ ! -s said ]
+  for format in png tif jpg exr; do
+    spec2rgb --space p3 a.exr -o told.$format 2>said
+    [ ! -s said ] || complain "$format"
+  done
+  spec2rgb -q --space p3 a.exr -o a.ppm 2>said
+  [ ! -s said ]
 }
 
 # Exposure, tone, gamut, dither

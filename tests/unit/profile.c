@@ -30,14 +30,15 @@ find_wanted(const struct spec_space *space, const struct spec_transfer *transfer
 }
 
 static void
-check_profile(const struct spec_space *space, const struct spec_transfer *transfer)
+check_profile(const struct spec_space *space, const struct spec_transfer *transfer,
+	const char *suffix)
 {
 	static const double colours[][3] = {
 		{1, 1, 1}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {.5, .25, .75}, {.01, .02, .9}};
 	struct spec_error error;
 	unsigned char *bytes, *again;
 	size_t size, size_again;
-	char title[100] = "";
+	char title[100] = "", name[100];
 	double got[3], wanted[3];
 	cmsHPROFILE profile, xyz;
 	cmsHTRANSFORM transform;
@@ -52,7 +53,9 @@ check_profile(const struct spec_space *space, const struct spec_transfer *transf
 	assert_non_null(profile);
 	assert_true(cmsGetProfileInfoASCII(profile, cmsInfoDescription, "en", "US", title,
 			    sizeof title) > 0);
-	assert_string_equal(title, space->title);
+	snprintf(name, sizeof name, "%s%s%s", space->title, suffix ? ", " : "",
+		suffix ? suffix : "");
+	assert_string_equal(title, name);
 	xyz = cmsCreateXYZProfile();
 	transform = cmsCreateTransform(profile, TYPE_RGB_DBL, xyz, TYPE_XYZ_DBL,
 		INTENT_RELATIVE_COLORIMETRIC, cmsFLAGS_NOOPTIMIZE | cmsFLAGS_NOCACHE);
@@ -81,13 +84,16 @@ test_spaces(void **state)
 	for (size_t i = 0; spec_space_at(i); i++) {
 		if (spec_space_at(i)->coordinates != SPEC_COORDINATES_RGB)
 			continue;
-		check_profile(spec_space_at(i), spec_space_at(i)->transfer);
-		check_profile(spec_space_at(i), NULL);
+		check_profile(spec_space_at(i), spec_space_at(i)->transfer, NULL);
+		check_profile(spec_space_at(i), NULL,
+			spec_space_at(i)->transfer == &spec_transfer_linear ? NULL
+									    : "linear");
 	}
 	assert_int_equal(
 		spec_space_parse("0.7,0.29 0.2,0.75 0.14,0.05 0.31,0.33", &space, NULL),
 		SPEC_OK);
-	check_profile(&space, &spec_transfer_adobe);
+	check_profile(&space, &spec_transfer_srgb, NULL);
+	check_profile(&space, &spec_transfer_adobe, "adobe");
 }
 
 int
