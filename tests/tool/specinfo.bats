@@ -120,6 +120,16 @@ light_of() {
   [ "$(cat old.txt)" = old ]
 }
 
+@test "--progress shows lines on standard error where pixels are read, and -q none" {
+  spectral a.exr
+  specinfo --statistics a.exr >told 2>said
+  [ ! -s said ]
+  specinfo --progress --statistics a.exr 2>said | diff told -
+  grep -q '100% .* lines/s' said || complain "$(cat said)"
+  specinfo --progress -q --statistics a.exr 2>said | diff told -
+  [ ! -s said ]
+}
+
 @test "several files: an empty line between them, and trouble with one is not the others'" {
   spectral a.exr
   spectral b.exr --kind T
@@ -489,6 +499,8 @@ END
   fails_cleanly specinfo --patches 49x4 card.exr
   fails_cleanly specinfo --patches 0x4 card.exr
   fails_cleanly specinfo --patches 999x999 card.exr
+  fails_cleanly specinfo --patches 257x256 card.exr
+  [[ $stderr = *'a chart of 257x256 has more than 65536 patches' ]] || complain "$stderr"
 }
 
 @test "--patches that are wrong" {
@@ -538,6 +550,8 @@ about() {
   about '.xy[1]' 0.32903 2e-5 specinfo --json D65
   about .cct 6504 2 specinfo --json D65
   about .duv 0.0032 5e-5 specinfo --json D65
+  about '.uv[0]' 0.19783 2e-5 specinfo --json D65
+  about '.uv[1]' 0.46833 2e-5 specinfo --json D65
   about .cct 2856 1 specinfo --json A
   about .duv 0 2e-5 specinfo --json A
   about .cct 4230 15 specinfo --json F2
@@ -584,6 +598,10 @@ about() {
   # ybar's share from 400 to 500 nm is 7 %: 7.4 of 106.857 nm (CIE 15).
   about '.pixels[0].outside' 0.931 0.003 specinfo --json -p 1,0 blue.exr
   specinfo -p 1,0 blue.exr | grep -qx '# x1y0 outside       93.1 % of Y, not counted'
+  # Light of which no luminance is known: Y is 100 for 1 per nm, and so is white.
+  spectral irradiance.exr --size 1x1 --grid 360:830:5 --pattern constant:1 --quantity irradiance
+  holds '.pixels[0] | (.XYZ[1] - 100 | fabs < 1e-9) and (.Lab[0] - 100 | fabs < 1e-9) and .luminance == null and .cct > 5000' \
+    specinfo --json -p 0,0 irradiance.exr
   # More than 1 % is told: of Y of equal energy 1.16 % lies beyond 655 nm, 0.84 % beyond 660.
   spectral red.exr --size 1x1 --grid 380:655:5 --pattern constant:1
   specinfo -p 0,0 red.exr | grep -qx '# x0y0 outside       1.2 % of Y, not counted'
@@ -982,6 +1000,8 @@ END
 }
 
 @test "finding: types of attributes" {
+  spectral a.exr --number spec:samples=3
+  checks 1 a.exr 'warning: spec:samples: is of type float instead of int, and so means nothing'
   spectral a.exr --number spec:bins=3 --attribute EV=1 --number spec:quantity=1
   checks 1 a.exr 'warning: spec:bins: is of type float instead of string, and so means nothing' \
     'warning: EV: is of type string instead of float, and so means nothing' \

@@ -108,7 +108,7 @@ test_temperature_ohno(void **state)
 static void
 test_temperature_round_trip(void **state)
 {
-	static const double aside[] = {-.049, -.02, -1e-4, 0, 1e-4, .02, .049};
+	static const double aside[] = {-.0499, -.02, -1e-4, 0, 1e-4, .02, .0499};
 
 	(void)state;
 	for (double mired = 10.01; mired <= 999; mired *= 1.25) {
@@ -132,6 +132,11 @@ test_temperature_round_trip(void **state)
 			near(cct / t, 1, 1e-5, "temperature");
 			near(duv, aside[i], 1e-9, "Duv");
 		}
+		/* And none farther off than .05. */
+		xyz_of_uv(at[0] + .0501 * (high[1] - low[1]) / length,
+			at[1] - .0501 * (high[0] - low[0]) / length, xyz);
+		spec_temperature_find(&observer, xyz, &cct, &duv);
+		assert_true(isnan(cct) && isnan(duv));
 	}
 }
 

@@ -309,6 +309,13 @@ test_number_scan(void **state)
 	assert_int_equal(spec_number_scan("1e999", '.', &value), 0);
 	assert_int_equal(spec_number_scan("nm", '.', &value), 0);
 	assert_int_equal(spec_number_scan(",", ',', &value), 0);
+	/* Up to 63 characters. */
+	for (int length = 63; length <= 64; length++) {
+		char many[80];
+
+		snprintf(many, sizeof many, "%0*d", length, 7);
+		assert_int_equal(spec_number_scan(many, '.', &value), length < 64 ? 63 : 0);
+	}
 	assert_int_equal(spec_number_scan(",5", ',', &value), 2);
 	assert_true(value == 0.5);
 }

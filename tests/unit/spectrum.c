@@ -592,6 +592,9 @@ make_scratch(void **state)
 	make_file("a/glass/twice.spd", 5);
 	make_file("a/glass/notes.txt", 6);
 	make_file("a/other/hidden.spd", 7);
+	make_folder("a/glass/.veil");
+	make_file("a/glass/.veil/behind.spd", 13);
+	make_file("a/glass/.veiled.spd", 14);
 	make_file("a/glass/Case.spd", 8);
 	make_file("a/metals/case.spd", 9);
 	make_file("b/glass/crown.spd", 10);
@@ -672,6 +675,8 @@ doubtful_names_are_refused(void **state)
 		{"CASE", "fits two spectra"},
 		{"lost", "no spectrum 'lost': it is not in /tmp/"},
 		{"hidden", "no spectrum 'hidden'"},
+		{"behind", "no spectrum 'behind'"},
+		{".veiled", "no spectrum '.veiled'"},
 		{"notes", "no spectrum 'notes'"},
 		{"wn", "did you mean 'crown'?"},
 		{"crwn", "did you mean 'crown'?"},
