@@ -73,22 +73,38 @@ spec_spd_table_to_curve(
 	return SPEC_OK;
 }
 
-/* A curve of what was read, which is freed; a spectrum of another kind is sampled. */
+/* The spectrum as a curve; its errors name the file. */
+static enum spec_status
+sample_spectrum(const struct spec_spectrum *spectrum, const char *name,
+	struct spec_curve *curve, struct spec_error *error)
+{
+	enum spec_status status = spec_spectrum_to_curve(spectrum, curve, error);
+
+	if (status != SPEC_OK && status != SPEC_ENOMEM && error)
+		spec_error_prefix(error, "%s", name);
+	return status;
+}
+
+/*
+ * A curve of what was read, which is freed; a spectrum of another kind is sampled. Rows are
+ * taken as they are, but the rules that their distances have to keep hold all the same.
+ */
 static enum spec_status
 take_table(struct spec_spd_table *table, const char *name, struct spec_curve *curve,
 	struct spec_error *error)
 {
 	struct spec_spectrum spectrum = {0};
-	enum spec_status status;
+	int rows = !spec_spd_columns(table->kind) && table->lines == 0;
+	int plain = rows && table->kind == SPEC_SPECTRUM_TABULATED &&
+		    table->interpolate == SPEC_INTERPOLATE_LINEAR;
+	enum spec_status status = SPEC_OK;
 
-	if (!spec_spd_columns(table->kind) && table->lines == 0) {
-		status = spec_spd_table_to_curve(table, curve, error);
-	} else {
+	if (!plain)
 		status = spec_spd_table_to_spectrum(table, name, &spectrum, error);
-		if (status == SPEC_OK)
-			status = spec_spectrum_to_curve(&spectrum, curve, error);
-		spec_spectrum_free(&spectrum);
-	}
+	if (status == SPEC_OK)
+		status = rows ? spec_spd_table_to_curve(table, curve, error)
+			      : sample_spectrum(&spectrum, name, curve, error);
+	spec_spectrum_free(&spectrum);
 	spec_spd_table_free(table);
 	return status;
 }

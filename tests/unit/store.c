@@ -275,10 +275,12 @@ faults_have_places(void **state)
 		{SPEC_EFORMAT, "400 1 2\n410 1 2\nline 500 1\n",
 			"t.spd: lines stand beside 2 columns, not one"}};
 
+	struct spec_error error = {0};
+	struct spec_curve curve;
+
 	(void)state;
 	for (size_t i = 0; i < COUNT(faults); i++) {
 		const struct fault *fault = &faults[i];
-		struct spec_error error = {0};
 		struct spec_spectrum spectrum;
 		enum spec_status status = read_back(fault->text, &spectrum, &error);
 
@@ -287,6 +289,52 @@ faults_have_places(void **state)
 			fail_msg("%s: status %d, '%s'", fault->text, status, error.message);
 		assert_null(spectrum.title);
 		assert_int_equal(read_back(fault->text, &spectrum, NULL), status);
+		/* And to who wants a plain curve. */
+		assert_int_equal(spec_spd_parse(fault->text, strlen(fault->text), "t.spd",
+					 &curve, &error),
+			fault->status);
+		if (strncmp(error.message, fault->message, strlen(fault->message)) != 0)
+			fail_msg("%s: '%s'", fault->text, error.message);
+		assert_null(curve.value);
+	}
+	assert_int_equal(spec_spd_parse("400 1\nline 400 1\n", 17, "t.spd", &curve, &error),
+		SPEC_ERANGE);
+	assert_string_equal(error.message,
+		"t.spd: one wavelength has no width for the energy of lines");
+}
+
+/* How densely other kinds are sampled for who wants a plain curve. */
+static void
+curves_have_steps(void **state)
+{
+	static const struct {
+		const char *text;
+		size_t count;
+		double first_nm, last_nm;
+	} cases[] = {
+		{"# representation: constant\n2\n", 471, 360, 830},
+		{"# representation: blackbody\n3000 1\n", 471, 360, 830},
+		{"# representation: fourier\n# range: 400 700\n0 1 0\n1 1 0\n", 301, 400,
+			700},
+		{"# representation: fourier\n# range: 400 700.5\n0 1 0\n1 1 0\n", 302, 400,
+			700.5},
+		/* Waves of 0.5 nm at least, of which a sixteenth is 1/32. */
+		{"# representation: fourier\n# range: 400 402\n0 1 0\n1 1 0\n2 1 0\n3 1 0\n"
+		 "4 1 0\n",
+			65, 400, 402},
+	};
+	struct spec_error error = {0};
+	struct spec_curve curve;
+
+	(void)state;
+	for (size_t i = 0; i < COUNT(cases); i++) {
+		if (spec_spd_parse(cases[i].text, strlen(cases[i].text), "t.spd", &curve,
+			    &error) != SPEC_OK)
+			fail_msg("%s", error.message);
+		assert_int_equal(curve.count, cases[i].count);
+		assert_true(curve.wavelength_nm[0] == cases[i].first_nm);
+		assert_true(curve.wavelength_nm[curve.count - 1] == cases[i].last_nm);
+		spec_curve_free(&curve);
 	}
 }
 
@@ -337,6 +385,7 @@ main(void)
 		cmocka_unit_test(files_are_loaded_and_saved),
 		cmocka_unit_test(curves_of_composites_keep_energy),
 		cmocka_unit_test(faults_have_places),
+		cmocka_unit_test(curves_have_steps),
 		cmocka_unit_test(headers_end_with_rows),
 		cmocka_unit_test(unwritable_texts_are_refused),
 	};
