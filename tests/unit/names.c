@@ -309,17 +309,27 @@ test_index_stokes(void **state)
 	ASSERT_UNFIT("S0 has 2 bands and S3 has 1", "S0.500nm", "S0.600nm", "S1.500nm",
 		"S1.600nm", "S2.500nm", "S2.600nm", "S3.500nm");
 	ASSERT_UNFIT("no partner", "S0.500nm", "S1.500nm", "S2.500nm", "S3.501nm");
+	ASSERT_UNFIT("no partner", "S0.500nm", "S1.500nm", "S2.500nm", "S3.500,0000011nm");
+	image = INDEXED("S0.500nm", "S1.500nm", "S2.500nm", "S3.500,0000009nm");
+	assert_int_equal(image.stokes, 4);
+	spec_image_clear(&image);
 }
 
 static void
 test_index_unfit(void **state)
 {
+	struct spec_image image;
+
 	(void)state;
 	ASSERT_UNFIT("two grids in one file?", "S0.500,000000nm", "S0.500,0nm");
 	ASSERT_UNFIT("two grids in one file?", "S0.500nm", "S0.0,5um", "S0.600nm");
 	ASSERT_UNFIT("two grids", "Radiance.C11", "S0.500nm");
 	ASSERT_UNFIT("two grids", "S0.500nm", "S0.600nm", "400.00-410.00nm");
 	ASSERT_UNFIT("same band", "T.500nm", "T.500nm.500nm");
+	ASSERT_UNFIT("two grids in one file?", "S0.500nm", "S0.500,0000009nm");
+	image = INDEXED("S0.500nm", "S0.500,0000011nm");
+	assert_int_equal(image.bands, 2);
+	spec_image_clear(&image);
 	ASSERT_UNFIT("emissive and reflective", "S0.500nm", "T.500nm");
 	ASSERT_UNFIT("emissive and reflective", "S0.500nm", "T.500nm.600nm");
 	ASSERT_UNFIT("two channels are named 'A'", "A", "S0.500nm", "A");
@@ -459,6 +469,46 @@ test_bins_of_names(void **state)
 	spec_image_clear(&image);
 	image = INDEXED("400.00-430.00nm", "440.00-470.00nm");
 	assert_null(image.edges_nm);
+	spec_image_clear(&image);
+	/* Ends and beginnings may be rounded apart by 0.01. */
+	image = INDEXED("400.00-430.00nm", "430.01-470.00nm");
+	assert_non_null(image.edges_nm);
+	spec_image_clear(&image);
+	image = INDEXED("400.00-430.00nm", "430.02-470.00nm");
+	assert_null(image.edges_nm);
+	spec_image_clear(&image);
+}
+
+/* Wavelengths in metres, of any type that holds a number; the attribute goes with the name. */
+static void
+test_ocean(void **state)
+{
+	struct spec_image image = INDEXED("a", "b", "c", "d", "e");
+	const float single = 4.5e-7f;
+	const double exact = 5.5e-7, none = 5.5e-2;
+	struct spec_error error;
+
+	(void)state;
+	check(spec_image_set_attribute(
+		      &image, "a.wavelength", "float", &single, sizeof single, &error),
+		&error);
+	check(spec_image_set_attribute(
+		      &image, "b.wavelength", "double", &exact, sizeof exact, &error),
+		&error);
+	check(spec_image_set_text(&image, "c.wavelength", "6.5e-7", &error), &error);
+	check(spec_image_set_attribute(
+		      &image, "d.wavelength", "double", &none, sizeof none, &error),
+		&error);
+	check(spec_image_set_text(&image, "e.wavelength", "650 nm", &error), &error);
+	check(spec_image_index(&image, "it", &error), &error);
+	assert_int_equal(image.bands, 3);
+	assert_int_equal(image.role, SPEC_ROLE_EMISSIVE);
+	for (int i = 0; i < 3; i++)
+		assert_true(fabs(image.wavelength_nm[i] - (450 + 100 * i)) < 1e-9);
+	check(spec_image_rename_bands(&image, "it", &error), &error);
+	assert_string_equal(image.channel[image.band_channel[1]].name, "S0.550,000000nm");
+	assert_null(spec_image_attribute(&image, "b.wavelength"));
+	assert_non_null(spec_image_attribute(&image, "d.wavelength"));
 	spec_image_clear(&image);
 }
 
@@ -657,6 +707,7 @@ main(void)
 		cmocka_unit_test(test_add_bad),
 		cmocka_unit_test(test_bins),
 		cmocka_unit_test(test_bins_of_names),
+		cmocka_unit_test(test_ocean),
 		cmocka_unit_test(test_rename),
 		cmocka_unit_test(test_attributes),
 		cmocka_unit_test(test_copy),

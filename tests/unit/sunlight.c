@@ -63,6 +63,11 @@ options_are_read(void **state)
 	assert_false(sunlight.has_plane);
 	near(air->turbidity, 3, 0, "turbidity");
 	near(air->pressure_hpa, 1013.25, 1e-9, "pressure");
+	near(air->aerosol_exponent, 1.3, 0, "exponent");
+	near(air->aerosol_depth, (.04608 * 3 - .04586) * pow(.5, -1.3), 1e-12, "depth");
+	near(air->ozone_cm, .34, 0, "ozone");
+	near(air->water_cm, 1.42, 0, "water");
+	near(air->ground_albedo, .2, 0, "albedo");
 
 	/* Commas and blanks in a place, blanks before an option, an altitude. */
 	sunlight = parse("sky@50.88, 4.70 1000m, 2005-05-17T13:37+02:00, turbidity=5,"
@@ -90,6 +95,12 @@ options_are_read(void **state)
 	sunlight = parse("sun@" NOON ",facing=270");
 	near(sunlight.plane.tilt_deg, 90, 0, "a wall");
 	assert_true(sunlight.has_plane);
+	sunlight = parse("sky@" NOON ",tilt=180,turbidity=10");
+	near(sunlight.plane.tilt_deg, 180, 0, "a ceiling");
+	near(air->turbidity, 10, 0, "turbidity");
+	sunlight = parse("sky@" NOON ",tilt=0,turbidity=1");
+	near(sunlight.plane.tilt_deg, 0, 0, "horizontal");
+	near(air->turbidity, 1, 0, "turbidity");
 }
 
 static void
