@@ -95,6 +95,23 @@ days_are_counted_where_the_clock_is(void **state)
 }
 
 static void
+offsets_are_at_most_a_day(void **state)
+{
+	struct spec_reading reading = {2003, 10, 17, 12, 30, 30, 86400};
+	struct spec_error error = {0};
+	struct spec_instant instant;
+
+	(void)state;
+	assert_int_equal(spec_instant_from_reading(&reading, &instant, &error), SPEC_OK);
+	for (int sign = -1; sign <= 1; sign += 2) {
+		reading.offset_s = sign * 86401;
+		assert_int_equal(
+			spec_instant_from_reading(&reading, &instant, &error), SPEC_ERANGE);
+		assert_contains(error.message, "an offset from UTC is at most a day");
+	}
+}
+
+static void
 nonsense_is_refused(void **state)
 {
 	static const char *const text[][2] = {
@@ -196,6 +213,7 @@ main(void)
 		cmocka_unit_test(instants_are_written),
 		cmocka_unit_test(zones_have_seconds),
 		cmocka_unit_test(days_are_counted_where_the_clock_is),
+		cmocka_unit_test(offsets_are_at_most_a_day),
 		cmocka_unit_test(nonsense_is_refused),
 		cmocka_unit_test(leap_seconds_are_counted),
 		cmocka_unit_test(the_tables_ends_are_told),

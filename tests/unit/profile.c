@@ -39,6 +39,7 @@ check_profile(const struct spec_space *space, const struct spec_transfer *transf
 	unsigned char *bytes, *again;
 	size_t size, size_again;
 	char title[100] = "", name[100];
+	struct tm made;
 	double got[3], wanted[3];
 	cmsHPROFILE profile, xyz;
 	cmsHTRANSFORM transform;
@@ -56,6 +57,9 @@ check_profile(const struct spec_space *space, const struct spec_transfer *transf
 	snprintf(name, sizeof name, "%s%s%s", space->title, suffix ? ", " : "",
 		suffix ? suffix : "");
 	assert_string_equal(title, name);
+	/* Not that of today. */
+	assert_true(cmsGetHeaderCreationDateTime(profile, &made));
+	assert_true(made.tm_year == 126 && made.tm_mon == 0 && made.tm_mday == 1);
 	xyz = cmsCreateXYZProfile();
 	transform = cmsCreateTransform(profile, TYPE_RGB_DBL, xyz, TYPE_XYZ_DBL,
 		INTENT_RELATIVE_COLORIMETRIC, cmsFLAGS_NOOPTIMIZE | cmsFLAGS_NOCACHE);

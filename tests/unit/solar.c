@@ -138,9 +138,13 @@ air_is_the_standard(void **state)
 static void
 light_is_bent_and_dimmed(void **state)
 {
-	static const struct spec_air air = {1010, 10};
+	static const struct spec_air air = {1010, 10}, cold = {1010, -20}, thin = {505, 10};
 
 	(void)state;
+	near(spec_air_refraction(&cold, 20), spec_air_refraction(&air, 20) * 283 / 253,
+		1e-12, "cold air");
+	near(spec_air_refraction(&thin, 20), spec_air_refraction(&air, 20) / 2, 1e-12,
+		"thin air");
 	near(spec_air_refraction(&air, .5 - 28.754 / 60) * 60, 28.754, .1,
 		"near the horizon");
 	near(spec_air_refraction(&air, 33.246 / 60) * 60, 24.618, .001, "Meeus");

@@ -157,6 +157,39 @@ faults_are_shown(void **state)
 
 /* The same light by its name and by place, instant and options. */
 static void
+options_have_their_ranges(void **state)
+{
+	static const struct {
+		const char *name;
+		double lowest, highest;
+	} options[] = {{"turbidity", 1, 10}, {"aerosol", 0, 10}, {"angstrom", -1, 4},
+		{"ozone", 0, 2}, {"water", 0, 20}, {"pressure", 10, 1200}, {"albedo", 0, 1},
+		{"tilt", 0, 180}, {"facing", -360, 360}};
+
+	(void)state;
+	for (size_t i = 0; i < COUNT(options); i++) {
+		const double values[] = {options[i].lowest, options[i].highest,
+			options[i].lowest - .01, options[i].highest + .01};
+
+		for (size_t k = 0; k < COUNT(values); k++) {
+			struct spec_sunlight sunlight;
+			struct spec_curve curve;
+			char name[128];
+
+			snprintf(name, sizeof name, "daylight@%s,%s=%.9g", NOON,
+				options[i].name, values[k]);
+			assert_int_equal(spec_sunlight_parse(name, &sunlight, &error),
+				k < 2 ? SPEC_OK : SPEC_ERANGE);
+			if (k >= 2)
+				continue;
+			assert_int_equal(
+				spec_sunlight_make(&sunlight, &curve, &error), SPEC_OK);
+			spec_curve_free(&curve);
+		}
+	}
+}
+
+static void
 places_and_instants_have_daylight(void **state)
 {
 	static const struct {
@@ -450,6 +483,7 @@ main(void)
 	const struct CMUnitTest tests[] = {
 		cmocka_unit_test(options_are_read),
 		cmocka_unit_test(faults_are_shown),
+		cmocka_unit_test(options_have_their_ranges),
 		cmocka_unit_test(places_and_instants_have_daylight),
 		cmocka_unit_test(damaged_names_do_no_harm),
 		cmocka_unit_test(there_is_no_light_in_the_night),
