@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/text.h"
+
 #define INDENT 2
 
 void
@@ -18,40 +20,6 @@ new_line(struct spec_json *json)
 	fprintf(json->stream, "\n%*s", json->depth * INDENT, "");
 }
 
-/*
- * The length of the UTF-8 character that begins at bytes, or 0: there is none. Unicode
- * 15.0, table 3-7.
- */
-static size_t
-character(const unsigned char *bytes, size_t size)
-{
-	unsigned char first = bytes[0], low = 0x80, high = 0xbf;
-	size_t length = first < 0x80   ? 1
-			: first < 0xc2 ? 0
-			: first < 0xe0 ? 2
-			: first < 0xf0 ? 3
-			: first < 0xf5 ? 4
-				       : 0;
-
-	if (length < 2 || length > size)
-		return length > size ? 0 : length;
-	if (first == 0xe0)
-		low = 0xa0; /* below it, the shorter form is the right one */
-	else if (first == 0xf0)
-		low = 0x90;
-	else if (first == 0xed)
-		high = 0x9f; /* above it are surrogates */
-	else if (first == 0xf4)
-		high = 0x8f; /* above it is nothing */
-	if (bytes[1] < low || bytes[1] > high)
-		return 0;
-	for (size_t i = 2; i < length; i++) {
-		if ((bytes[i] & 0xc0) != 0x80)
-			return 0;
-	}
-	return length;
-}
-
 static void
 put_text(struct spec_json *json, const char *text, size_t size)
 {
@@ -59,7 +27,7 @@ put_text(struct spec_json *json, const char *text, size_t size)
 
 	fputc('"', json->stream);
 	while (size > 0) {
-		size_t length = character(bytes, size);
+		size_t length = spec_text_character(bytes, size);
 
 		if (length == 0)
 			fputs("\\ufffd", json->stream);

@@ -25,4 +25,16 @@ enum spec_status spec_text_close(struct spec_text *text, struct spec_error *erro
 /* Frees the bytes, and closes the stream where it is open. */
 void spec_text_free(struct spec_text *text);
 
+/*
+ * The length of the UTF-8 character that begins at bytes, or 0: there is none. size: of
+ * bytes, above 0. Unicode 15.0, table 3-7.
+ */
+size_t spec_text_character(const unsigned char *bytes, size_t size);
+
+/*
+ * A copy of a text in which every byte that is no UTF-8 has become U+FFFD, or null with the
+ * error set (SPEC_ENOMEM).
+ */
+char *spec_text_readable(const char *text, struct spec_error *error);
+
 #endif
