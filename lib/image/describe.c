@@ -44,9 +44,8 @@ spec_describing_naming(enum spec_naming naming)
 	}
 }
 
-/* The unit of a quantity, or null: not known. */
-static const char *
-unit_of(const char *quantity)
+const char *
+spec_describe_unit(const char *quantity)
 {
 	static const struct {
 		const char *quantity, *unit;
@@ -166,7 +165,7 @@ spec_describe_find(struct spec_describe *describe, const struct spec_reader *rea
 	describe->quantity = spec_image_quantity(image, error);
 	if (!describe->quantity)
 		return SPEC_ENOMEM;
-	describe->unit = unit_of(describe->quantity);
+	describe->unit = spec_describe_unit(describe->quantity);
 	status = spec_layers_find(
 		&describe->layers, image, describe->name, &describe->damage);
 	if (status != SPEC_ENOMEM)

@@ -39,6 +39,9 @@ enum spec_status spec_describe_find(struct spec_describe *describe,
 	struct spec_error *error);
 void spec_describe_free(struct spec_describe *describe);
 
+/* The unit of a sample of that quantity (specexr(5)), or null: not known. */
+const char *spec_describe_unit(const char *quantity);
+
 /* For people: the file's name, then a line per thing. */
 void spec_describe_print(FILE *stream, const struct spec_describe *describe);
 

@@ -13,6 +13,7 @@
 #include "colour/dominant.h"
 #include "colour/space.h"
 #include "colour/temperature.h"
+#include "image/describe.h"
 #include "image/plugin.h"
 
 enum spec_status
@@ -44,33 +45,43 @@ spec_plot_free(struct spec_plot *plot)
 	}
 	free(plot->series);
 	free(plot->quantity);
+	free(plot->unit);
 	*plot = (struct spec_plot){0};
 }
 
-/* Another quantity than that of all before leaves none. */
-static enum spec_status
-take_quantity(struct spec_plot *plot, const char *quantity, struct spec_error *error)
+/* A text that is another than that of all before is left out. */
+static void
+drop_other(char **text, const char *other)
 {
-	if (plot->count == 0) {
-		plot->quantity = spec_memory_text(quantity, strlen(quantity), error);
-		return plot->quantity ? SPEC_OK : SPEC_ENOMEM;
+	if (!*text || strcmp(*text, other) == 0)
+		return;
+	free(*text);
+	*text = NULL;
+}
+
+static enum spec_status
+take_quantity(struct spec_plot *plot, const char *quantity, const char *unit,
+	struct spec_error *error)
+{
+	if (plot->count > 0) {
+		drop_other(&plot->quantity, quantity);
+		drop_other(&plot->unit, unit);
+		return SPEC_OK;
 	}
-	if (plot->quantity && strcmp(plot->quantity, quantity) != 0) {
-		free(plot->quantity);
-		plot->quantity = NULL;
-	}
-	return SPEC_OK;
+	plot->quantity = spec_memory_text(quantity, strlen(quantity), error);
+	plot->unit = spec_memory_text(unit, strlen(unit), error);
+	return plot->quantity && plot->unit ? SPEC_OK : SPEC_ENOMEM;
 }
 
 /* Room for a spectrum; what it holds is the caller's to fill in. */
 static enum spec_status
-add_series(struct spec_plot *plot, const char *name, const char *quantity,
+add_series(struct spec_plot *plot, const char *name, const char *quantity, const char *unit,
 	const double *wavelength_nm, size_t count, const struct spec_appearance *appearance,
 	struct spec_error *error)
 {
 	void *list = plot->series;
 	struct spec_plotting_series *series;
-	enum spec_status status = take_quantity(plot, quantity, error);
+	enum spec_status status = take_quantity(plot, quantity, unit, error);
 
 	if (status != SPEC_OK)
 		return status;
@@ -86,7 +97,7 @@ add_series(struct spec_plot *plot, const char *name, const char *quantity,
 	*series = (struct spec_plotting_series){.count = count, .xy = {NAN, NAN}};
 	if (appearance)
 		memcpy(series->xy, appearance->xy, sizeof series->xy);
-	series->name = spec_memory_text(name, strlen(name), error);
+	series->name = spec_text_readable(name, error);
 	series->wavelength_nm = spec_memory_new(count, sizeof(double), "samples", error);
 	series->value = spec_memory_new(count, sizeof(double), "samples", error);
 	if (!series->name || !series->wavelength_nm || !series->value)
@@ -100,7 +111,7 @@ spec_plot_add_curve(struct spec_plot *plot, const char *name,
 	const struct spec_curve *curve, size_t column,
 	const struct spec_appearance *appearance, struct spec_error *error)
 {
-	enum spec_status status = add_series(plot, name, curve->quantity,
+	enum spec_status status = add_series(plot, name, curve->quantity, curve->unit,
 		curve->wavelength_nm, curve->count, appearance, error);
 
 	if (status == SPEC_OK)
@@ -114,12 +125,13 @@ static enum spec_status
 add_probe(struct spec_plot *plot, const struct spec_probe *probe,
 	const struct spec_image *image, const char *quantity, struct spec_error *error)
 {
+	const char *unit = spec_describe_unit(quantity);
 	char place[64];
 	enum spec_status status;
 
 	snprintf(place, sizeof place, "%zu,%d", probe->x, probe->y);
 	status = add_series(plot, probe->name ? probe->name : place, quantity,
-		image->wavelength_nm, image->bands, &probe->seen, error);
+		unit ? unit : "", image->wavelength_nm, image->bands, &probe->seen, error);
 	for (size_t i = 0; i < image->bands && status == SPEC_OK; i++)
 		plot->series[plot->count - 1].value[i] =
 			probe->value[image->band_channel[i]];
@@ -244,6 +256,30 @@ draw(const struct spec_plotting_request *request, const char *path,
 	return status;
 }
 
+/* What is on the axis of values, with the unit in brackets where it is one that is known. */
+static char *
+name_values(const struct spec_plot *plot, struct spec_error *error)
+{
+	const char *quantity = plot->quantity, *unit = plot->unit;
+	char *name, *readable;
+	size_t size;
+
+	if (!quantity)
+		quantity = "each over its greatest value";
+	else if (!*quantity)
+		quantity = "value";
+	if (!plot->quantity || !unit || strcmp(unit, "1") == 0)
+		unit = "";
+	size = strlen(quantity) + strlen(unit) + sizeof " []";
+	name = spec_memory_new(size, 1, "characters", error);
+	if (!name)
+		return NULL;
+	snprintf(name, size, *unit ? "%s [%s]" : "%s%s", quantity, unit);
+	readable = spec_text_readable(name, error);
+	free(name);
+	return readable;
+}
+
 static enum spec_status
 fill_request(struct spec_plotting_request *request, const struct spec_plot *plot,
 	const struct spec_viewing *viewing, struct spec_plotting_body *body,
@@ -252,17 +288,16 @@ fill_request(struct spec_plotting_request *request, const struct spec_plot *plot
 	*request = (struct spec_plotting_request){.format = plot->format,
 		.count = plot->count,
 		.series = plot->series,
-		.observer = viewing->observer.title,
 		.bodies = BODIES,
 		.body = body};
-	request->quantity = "each over its greatest value";
-	if (plot->quantity)
-		request->quantity = *plot->quantity ? plot->quantity : "value";
+	request->quantity = name_values(plot, error);
+	request->observer = spec_text_readable(viewing->observer.title, error);
 	request->locus_xy = spec_memory_new(viewing->observer.count,
 		sizeof *request->locus_xy, "observer samples", error);
 	request->locus_nm = spec_memory_new(
 		viewing->observer.count, sizeof(double), "observer samples", error);
-	if (!request->locus_xy || !request->locus_nm)
+	if (!request->quantity || !request->observer || !request->locus_xy ||
+		!request->locus_nm)
 		return SPEC_ENOMEM;
 	request->locus_count = spec_dominant_locus(
 		&viewing->observer, request->locus_xy, request->locus_nm);
@@ -292,6 +327,8 @@ spec_plot_save(const struct spec_plot *plot, const char *path,
 	status = fill_request(&request, plot, viewing, body, error);
 	if (status == SPEC_OK)
 		status = draw(&request, path, error);
+	free(request.quantity);
+	free(request.observer);
 	free(request.locus_xy);
 	free(request.locus_nm);
 	return status;

@@ -13,6 +13,7 @@
 struct spec_plot {
 	enum spec_plotting_format format;
 	char *quantity; /* of all, or null where there are several: then each is scaled to 1 */
+	char *unit; /* of all, or null where there are several; "" where it is not known */
 	size_t count, room;
 	struct spec_plotting_series *series;
 };

@@ -3,8 +3,16 @@
 
 #include "image/plotdrawing.h"
 
-#define MOST_NAMES 28
+#include <stdio.h>
+#include <string.h>
+
+#define MOST_COLUMNS 4
+#define MOST_LINES 7
+#define MOST_NAMES (MOST_COLUMNS * MOST_LINES)
 #define NAME_LINE 13.0
+#define NAME_LEFT 18.0 /* of it are 14 for the line's colour */
+#define NAME_GAP 10.0
+#define MOST_BYTES 255 /* of a name; what is longer fits no page */
 
 /* The range of finite values, with 0 in it. */
 static void
@@ -72,31 +80,77 @@ draw_dots(cairo_t *cairo, const struct spec_plotting_series *series,
 	}
 }
 
+static double
+width_of(cairo_t *cairo, const char *text)
+{
+	cairo_text_extents_t size;
+
+	cairo_text_extents(cairo, text, &size);
+	return size.x_advance;
+}
+
+/*
+ * The name, or as much of its end as fits, behind an ellipsis: names are often paths, which
+ * differ at their ends. fitting: MOST_BYTES + 4 bytes.
+ */
+static void
+fit_name(cairo_t *cairo, const char *name, double width, char *fitting)
+{
+	size_t length = strlen(name);
+
+	if (length <= MOST_BYTES && width_of(cairo, name) <= width) {
+		memcpy(fitting, name, length + 1);
+		return;
+	}
+	if (length > MOST_BYTES)
+		name += length - MOST_BYTES;
+	do {
+		name += *name != '\0';
+		while ((*name & 0xc0) == 0x80)
+			name++;
+		snprintf(fitting, MOST_BYTES + 4, "\xe2\x80\xa6%s", name);
+	} while (*name && width_of(cairo, fitting) > width);
+}
+
+/* As many columns as the widest name leaves, and as the names need to fit below the panel. */
+static size_t
+count_columns(cairo_t *cairo, const struct spec_plotting_request *request, size_t names,
+	double width)
+{
+	size_t columns = MOST_COLUMNS;
+	double widest = 0;
+
+	for (size_t i = 0; i < names; i++)
+		widest = fmax(widest, width_of(cairo, request->series[i].name));
+	while (columns > 1 && (columns - 1) * MOST_LINES >= names &&
+		NAME_LEFT + widest + NAME_GAP > width / (double)columns)
+		columns--;
+	return columns;
+}
+
 /* Below the panel, in columns. */
 static void
 draw_names(cairo_t *cairo, const struct spec_plotting_request *request,
 	const struct spec_panel *panel)
 {
-	const size_t columns = 4;
 	size_t names = request->count < MOST_NAMES ? request->count : MOST_NAMES;
+	size_t columns = count_columns(cairo, request, names, panel->width);
+	double width = panel->width / (double)columns;
+	char fitting[MOST_BYTES + 4];
 
 	for (size_t i = 0; i < names; i++) {
-		size_t column = i % columns, line = i / columns;
-		double x = panel->left + panel->width * (double)column / (double)columns;
-		double y = panel->top + panel->height + 50 + NAME_LINE * (double)line;
+		double x = panel->left + width * (double)(i % columns);
+		double y =
+			panel->top + panel->height + 50 + NAME_LINE * (double)(i / columns);
 		int last = i + 1 == names && names < request->count;
 
 		spec_plot_colour(cairo, i);
 		cairo_rectangle(cairo, x, y - 2, 14, 4);
 		cairo_fill(cairo);
-		cairo_save(cairo);
-		cairo_rectangle(cairo, x, y - NAME_LINE, panel->width / (double)columns - 4,
-			2 * NAME_LINE);
-		cairo_clip(cairo);
 		cairo_set_source_rgb(cairo, 0, 0, 0);
-		spec_plot_text(cairo, x + 18, y, 0, .5,
-			last ? "and others" : request->series[i].name);
-		cairo_restore(cairo);
+		fit_name(cairo, last ? "and others" : request->series[i].name,
+			width - NAME_LEFT - NAME_GAP, fitting);
+		spec_plot_text(cairo, x + NAME_LEFT, y, 0, .5, fitting);
 	}
 }
 

@@ -9,7 +9,7 @@
 #include <stddef.h>
 
 /* To be raised with every change below. */
-#define SPEC_PLOTTING_VERSION 1
+#define SPEC_PLOTTING_VERSION 2
 
 /* The only symbol: a constant struct spec_plotting. */
 #define SPEC_PLOTTING_SYMBOL "spec_plotting"
@@ -33,8 +33,8 @@ struct spec_plotting_body {
 
 struct spec_plotting_request {
 	enum spec_plotting_format format;
-	const char *quantity; /* on the axis of values */
-	const char *observer; /* over the diagram */
+	char *quantity; /* on the axis of values; like all texts, valid UTF-8 */
+	char *observer; /* over the diagram */
 	size_t count;
 	const struct spec_plotting_series *series;
 

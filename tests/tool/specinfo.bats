@@ -741,6 +741,49 @@ about() {
   run ! grep -qE 'M 806\.5[0-9]* 345\.5' c.svg
 }
 
+# Two lines of names, which a picture shows as they are seen: what is cut off is not there.
+@test "--plot: names that are too long keep their ends, and all are there" {
+  mkdir -p a-folder-of-a-very-long-name/in-another-of-such-a-name/and-in-a-third-one-of-them
+  for name in one two three four five; do
+    file=$(echo a-*/*/*)/$name
+    printf '%s\n' '400 1' '500 1' >"$file.spd"
+  done
+  cp "$file.spd" "${file%five}FIVE.spd"
+  draw() {
+    specinfo --plot "$1" "${@:2}" >told
+  }
+  draw a.png a-*/*/*/{one,two,three,four,five}.spd
+  draw b.png a-*/*/*/{two,one,three,four,five}.spd
+  run ! cmp a.png b.png
+  # One that is wide has a line of its own: 13 pixels below the other's.
+  draw c.svg a-*/*/*/one.spd a-*/*/*/two.spd
+  [ "$(grep -oE '<use [^>]* x="88[.0-9]*" y="5(13|26)\.' c.svg | wc -l)" -eq 2 ] ||
+    complain "$(grep -oE '<use [^>]*y="5[12][0-9.]*"' c.svg | head)"
+}
+
+@test "--plot: the axis of values has the unit that all have" {
+  printf '%s\n' '# quantity: a' '400 1' '500 2' >none.spd
+  sed 's/# .*/&\n# unit: W/' none.spd >watt.spd
+  sed 's/# .*/&\n# unit: V/' none.spd >volt.spd
+  letters() {
+    specinfo --plot a.svg "$@" >told
+    grep -oE '<use [^>]*y="24"' a.svg | wc -l
+  }
+  few=$(letters none.spd)
+  [ "$(letters watt.spd)" -eq $((few + 4)) ] || complain "$few" "$(letters watt.spd)"
+  [ "$(letters watt.spd watt.spd)" -eq $((few + 4)) ]
+  [ "$(letters watt.spd volt.spd)" -eq "$few" ]
+}
+
+@test "--plot: names and quantities that are no UTF-8 are drawn all the same" {
+  name=$'caf\xe9.spd'
+  printf '# quantity: \xe9\n# unit: \xe9\n400 1\n500 2\n' >"$name"
+  specinfo --plot a.png "$name" >told
+  printf '# quantity: \xef\xbf\xbd\n# unit: \xef\xbf\xbd\n400 1\n500 2\n' >$'caf\xef\xbf\xbd.spd'
+  specinfo --plot b.png $'caf\xef\xbf\xbd.spd' >told
+  cmp a.png b.png
+}
+
 @test "--plot: 1000 spectra at most" {
   for count in 1000 1001; do
     awk -v count=$count 'BEGIN {
