@@ -24,7 +24,7 @@ static const struct cli_option options[] = {
 	{0, "space", "NAME|PRIMARIES",
 		"srgb, p3, dci-p3, rec709, rec2020, aces, acescg, adobe, xyz, "
 		"lab, xyy, or 'xr,yr xg,yg xb,yb xw,yw' (default: srgb)"},
-	{0, "transfer", "linear|srgb|rec709|rec2020|adobe|dci",
+	{0, "transfer", "linear|srgb|rec709|rec2020|adobe|dci|gamma:G",
 		"encode whole numbers so (default: as the space has it)"},
 	{0, "adapt", "none|vonkries|bradford|cat02|cat16|daylight[:METHOD]",
 		"adapt reflectance to the white of the space, or light from "
@@ -91,6 +91,7 @@ struct job {
 	const char *space_text;         /* or null, as the next */
 	int untold; /* which space it is cannot be seen in the picture */
 	const struct spec_transfer *transfer;
+	struct spec_transfer gamma; /* where that is a power */
 	struct spec_look look;
 	double exposure;
 	struct spec_level level;
@@ -176,7 +177,7 @@ take_colours(struct job *job, const char *name, const char *value, int *known,
 		job->space_text = value;
 		status = spec_space_parse(value, &job->space, error);
 	} else if (strcmp(name, "transfer") == 0) {
-		job->transfer = spec_transfer_find(value, error);
+		job->transfer = spec_transfer_parse(value, &job->gamma, error);
 		status = job->transfer ? SPEC_OK : SPEC_EUSAGE;
 	} else if (strcmp(name, "exposure") == 0) {
 		status = take_exposure(job, value, error);

@@ -3,6 +3,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/number.h"
+
 const struct spec_transfer spec_transfer_linear = {
 	"linear", "no encoding", 1, 0, 1, 1, 0, 0, 8};
 
@@ -27,6 +29,10 @@ const struct spec_transfer spec_transfer_adobe = {
 const struct spec_transfer spec_transfer_dci = {
 	"dci", "SMPTE RP 431-2:2011", 0, 0, 1, 1 / 2.6, 0, 0, 0};
 
+/* H.273 has a code for one power. */
+#define CICP_GAMMA 2.2
+#define CICP_OF_GAMMA 4
+
 #define TRANSFERS 6
 static const struct spec_transfer *const transfers[TRANSFERS] = {&spec_transfer_linear,
 	&spec_transfer_srgb, &spec_transfer_rec709, &spec_transfer_rec2020,
@@ -46,9 +52,33 @@ spec_transfer_find(const char *name, struct spec_error *error)
 			return transfers[i];
 	spec_error_set(error, SPEC_EUSAGE,
 		"unknown transfer function '%s': expected linear, srgb, rec709, rec2020, "
-		"adobe or dci",
+		"adobe, dci or gamma:G",
 		name);
 	return NULL;
+}
+
+const struct spec_transfer *
+spec_transfer_parse(const char *text, struct spec_transfer *own, struct spec_error *error)
+{
+	static const char prefix[] = "gamma:";
+	double gamma;
+
+	if (strncmp(text, prefix, strlen(prefix)) != 0)
+		return spec_transfer_find(text, error);
+	if (spec_number_parse(text + strlen(prefix), 1, SPEC_TRANSFER_MOST_GAMMA,
+		    "the gamma of a transfer function", &gamma, error) != SPEC_OK) {
+		if (error)
+			error->status = SPEC_EUSAGE;
+		return NULL;
+	}
+	if (gamma == 1)
+		return &spec_transfer_linear;
+	*own = (struct spec_transfer){.name = text,
+		.source = "a power",
+		.scale = 1,
+		.power = 1 / gamma,
+		.cicp = gamma == CICP_GAMMA ? CICP_OF_GAMMA : 0};
+	return own;
 }
 
 double

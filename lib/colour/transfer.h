@@ -30,6 +30,16 @@ const struct spec_transfer *spec_transfer_at(size_t index);
 /* The one of that name, or null with SPEC_EUSAGE and the known names in the message. */
 const struct spec_transfer *spec_transfer_find(const char *name, struct spec_error *error);
 
+/* The largest G of gamma:G, which the tables of encode.h are made for; G is 1 or more. */
+#define SPEC_TRANSFER_MOST_GAMMA 2.6
+
+/*
+ * Functions as users write them: a name of those, or "gamma:G", v^(1/G), which is put into
+ * *own and called by text; both must last as long as it. Null with SPEC_EUSAGE: neither.
+ */
+const struct spec_transfer *spec_transfer_parse(
+	const char *text, struct spec_transfer *own, struct spec_error *error);
+
 /*
  * Given:    linear, encoded  without unit, nominally in [0, 1]; below it the straight
  *                            part goes on (a pure power is 0 there), above it the

@@ -934,6 +934,15 @@ END
   # White outside its primaries.
   spec2rgb --space '.6,.3 .3,.6 .5,.3 .15,.1' a.exr -o odd.png
   [ -n "$(chunk odd.png iCCP)" ]
+  # A quarter of the light is code 118.05 by ROMM RGB's power, whose gAMA is 1/1.8.
+  spectral quarter.exr --kind T --pattern constant:0.25
+  spec2rgb --space '.7347,.2653 .1596,.8404 .0366,.0001 .3457,.3585' --adapt bradford --transfer gamma:1.8 -f ppm quarter.exr 2>/dev/null |
+    tail -c 3 | od -An -tu1 | grep -qx ' 118 118 118'
+  spec2rgb --transfer gamma:1.8 quarter.exr -o romm.png
+  [ "$(chunk romm.png gAMA)" = 0000d904 ]
+  spec2rgb --transfer gamma:2.2 quarter.exr -o m.png
+  [ "$(chunk m.png cICP)" = 01040001 ]
+  fails_cleanly spec2rgb --transfer gamma:2.7 quarter.exr -o x.png
   spec2rgb --transfer linear a.exr -o linear.png
   [ "$(chunk linear.png cICP)" = 01080001 ]
   [ -z "$(chunk linear.png sRGB)" ]

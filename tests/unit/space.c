@@ -156,6 +156,8 @@ encode_long(const char *name, long double v)
 		return v <= .018053968510807L
 			       ? 4.5L * v
 			       : 1.09929682680944L * powl(v, .45L) - .09929682680944L;
+	if (strncmp(name, "gamma:", 6) == 0)
+		return powl(v, 1 / strtold(name + 6, NULL));
 	if (strcmp(name, "adobe") == 0)
 		return powl(v, 1 / 2.19921875L);
 	return strcmp(name, "dci") == 0 ? powl(v, 1 / 2.6L) : v;
@@ -188,6 +190,33 @@ test_transfer(void **state)
 	}
 	assert_null(spec_transfer_find("gamma", &error));
 	assert_int_equal(error.status, SPEC_EUSAGE);
+	assert_null(spec_transfer_find("gamma:2", &error));
+	assert_int_equal(error.status, SPEC_EUSAGE);
+}
+
+/* Powers by number: of a few, and of the two at the ends. */
+static void
+test_gamma(void **state)
+{
+	static const char *const none[] = {"gamma", "gamma:", "gamma:0.99", "gamma:2.61",
+		"gamma:nan", "gamma:2.2x", "gamma:-2", "2.2"};
+	struct spec_transfer own;
+	struct spec_error error;
+
+	(void)state;
+	assert_ptr_equal(spec_transfer_parse("srgb", &own, NULL), &spec_transfer_srgb);
+	assert_ptr_equal(spec_transfer_parse("gamma:1", &own, NULL), &spec_transfer_linear);
+	assert_ptr_equal(spec_transfer_parse("gamma:1.8", &own, NULL), &own);
+	assert_string_equal(own.name, "gamma:1.8");
+	near(spec_transfer_encode(&own, .5), .680395, 1e-6, "ROMM RGB's power");
+	near(spec_transfer_decode(&own, .25), pow(.25, 1.8), 1e-15, "gamma:1.8 back");
+	assert_int_equal(own.cicp, 0);
+	assert_ptr_equal(spec_transfer_parse("gamma:2.2", &own, NULL), &own);
+	assert_int_equal(own.cicp, 4);
+	for (size_t i = 0; i < COUNT(none); i++) {
+		assert_null(spec_transfer_parse(none[i], &own, &error));
+		assert_int_equal(error.status, SPEC_EUSAGE);
+	}
 }
 
 enum { RUN = 600 }; /* more than two blocks of the encoders' */
@@ -214,32 +243,42 @@ check_run(const struct spec_encoder *encoder, const float *v)
 
 /* Every code of 8 bits at both sides of its threshold; 16 bits in a sweep. */
 static void
+check_encoder(struct spec_encoder *encoder, const struct spec_transfer *transfer)
+{
+	static float v[RUN];
+	uint32_t bits = 0;
+
+	spec_encoder_init(encoder, transfer);
+	while (bits < 0x3f900000) {
+		for (size_t k = 0; k < RUN; k++, bits += 3001)
+			memcpy(&v[k], &bits, sizeof bits);
+		check_run(encoder, v);
+	}
+	for (int code = 1; code < 256; code++) {
+		float around[2] = {
+			nextafterf(encoder->threshold[code], 0), encoder->threshold[code]};
+		unsigned char got[2];
+
+		spec_encode8(encoder, around, 2, got, 1);
+		assert_int_equal(got[0], code - 1);
+		assert_int_equal(got[1], code);
+	}
+}
+
+static void
 test_encoders(void **state)
 {
+	static const char *const gammas[] = {
+		"gamma:1.0001", "gamma:1.05", "gamma:1.8", "gamma:2.2", "gamma:2.6"};
 	struct spec_encoder *encoder = malloc(sizeof *encoder);
-	static float v[RUN];
+	struct spec_transfer own;
 
 	(void)state;
 	assert_non_null(encoder);
-	for (size_t i = 0; spec_transfer_at(i); i++) {
-		uint32_t bits = 0;
-
-		spec_encoder_init(encoder, spec_transfer_at(i));
-		while (bits < 0x3f900000) {
-			for (size_t k = 0; k < RUN; k++, bits += 3001)
-				memcpy(&v[k], &bits, sizeof bits);
-			check_run(encoder, v);
-		}
-		for (int code = 1; code < 256; code++) {
-			float around[2] = {nextafterf(encoder->threshold[code], 0),
-				encoder->threshold[code]};
-			unsigned char got[2];
-
-			spec_encode8(encoder, around, 2, got, 1);
-			assert_int_equal(got[0], code - 1);
-			assert_int_equal(got[1], code);
-		}
-	}
+	for (size_t i = 0; spec_transfer_at(i); i++)
+		check_encoder(encoder, spec_transfer_at(i));
+	for (size_t i = 0; i < COUNT(gammas); i++)
+		check_encoder(encoder, spec_transfer_parse(gammas[i], &own, NULL));
 	free(encoder);
 }
 
@@ -275,8 +314,8 @@ main(void)
 {
 	const struct CMUnitTest tests[] = {cmocka_unit_test(test_matrices),
 		cmocka_unit_test(test_parse), cmocka_unit_test(test_adaptation),
-		cmocka_unit_test(test_transfer), cmocka_unit_test(test_encoders),
-		cmocka_unit_test(test_coordinates)};
+		cmocka_unit_test(test_transfer), cmocka_unit_test(test_gamma),
+		cmocka_unit_test(test_encoders), cmocka_unit_test(test_coordinates)};
 
 	return cmocka_run_group_tests(tests, NULL, NULL);
 }
