@@ -19,9 +19,8 @@ digits(const char *text)
 	return count;
 }
 
-/* The length of [+-]digits[mark digits][e[+-]digits] at text, or 0. */
-static size_t
-number_length(const char *text, char mark)
+size_t
+spec_number_length(const char *text, char mark)
 {
 	size_t length = 0, mantissa, exponent;
 
@@ -53,7 +52,7 @@ size_t
 spec_number_scan(const char *text, char mark, double *value)
 {
 	char copy[LONGEST_NUMBER];
-	size_t length = number_length(text, mark);
+	size_t length = spec_number_length(text, mark);
 	char *comma;
 
 	if (length == 0 || length >= sizeof copy)

@@ -53,6 +53,12 @@ enum spec_status spec_number_parse_range(
 	const char *text, double *low, double *high, struct spec_error *error);
 
 /*
+ * How many bytes at the start of a text are written as a number, whether or not a double holds
+ * it: [+-]digits[mark digits][e[+-]digits]; 0: none.
+ */
+size_t spec_number_length(const char *text, char mark);
+
+/*
  * The number at the start of a text that need not end there, as the formats
  * write them; mark is the decimal mark, '.' or ','. Returns how many bytes it
  * takes, or 0 if there is none or it is not finite.

@@ -37,17 +37,19 @@ take_prefix(const char **text)
 }
 
 /*
- * Takes "550,000000nm" or "545THz" from *text; the number may be missing, which
- * gives 0. Returns 0 where the text is not of that form.
+ * Takes "550,000000nm" or "545THz" from *text; the number may be missing, or too large
+ * or long to be read, which gives 0. Returns 0 where the text is not of that form.
  */
 static int
 take_wavelength(const char **text, double *wavelength_nm)
 {
 	double value = 0, factor;
-	const char *rest = *text + spec_number_scan(*text, ',', &value);
+	const char *rest = *text + spec_number_length(*text, ',');
 
 	if (**text == '+' || **text == '-')
 		return 0;
+	if (spec_number_scan(*text, ',', &value) == 0)
+		value = 0; /* none, or one that no double holds */
 	factor = take_prefix(&rest);
 	if (strncmp(rest, "Hz", 2) == 0) {
 		*wavelength_nm = value > 0 ? LIGHT_NM_PER_S / (value * factor) : 0;

@@ -159,7 +159,8 @@ test_read_bad(void **state)
 	static const char *const names[] = {"S0.nm", "T.nm", "S3.um", "S0.m", "S0.Hz",
 		"S0.THz", "S0.0nm", "S0.0,0nm", "T.0Hz", "S0.0,001nm", "S0.2mm", "S0.5m",
 		"T.100Hz", "S0.1e300m", "T.nm.550nm", "T.550nm.nm", "T.550nm.0nm",
-		"T.550nm.2mm", "S0.1e25Hz"};
+		"T.550nm.2mm", "S0.1e25Hz", "S0.1e400nm", "T.1e-400nm", "T.550nm.1e999Hz",
+		"S0.0000000000000000000000000000000000000000000000000000000000000500nm"};
 	struct spec_error error;
 
 	(void)state;
