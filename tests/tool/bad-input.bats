@@ -308,6 +308,17 @@ many() {
   done
 }
 
+@test "a window one pixel beyond 2^30" {
+  spectral a.exr --compression none --size 1x1
+  for window in "1073741824 0 1073741824 0" "0 1073741824 0 1073741824" "-1073741825 0 -1073741825 0" \
+    "0 -1073741825 0 -1073741825"; do
+    # shellcheck disable=SC2086 # four numbers
+    set_window a.exr dataWindow $window
+    refused a.exr
+    [[ $stderr = *'ata window'* ]] || complain "$stderr"
+  done
+}
+
 @test "a window that ends before it begins" {
   spectral a.exr --compression none
   set_window a.exr dataWindow 5 0 3 7

@@ -210,6 +210,7 @@ gives(enum spec_arithmetic_operation operation, double want)
 	is(BAND, want);
 	assert_int_equal(arithmetic.image.role, SPEC_ROLE_EMISSIVE);
 	has_text("emissiveUnits", "W.m^-2.sr^-1");
+	has_text("spectralLayoutVersion", "1.0");
 	clear();
 }
 
@@ -487,6 +488,8 @@ test_geometry(void **state)
 		"film1.P.X", "film1.P.Y", "film1.P.Z", "film1.cosine", "film1.cover",
 		"film1.id", "film1.mirror.S0.400nm", "film1.mirror.S0.500nm",
 		"through.S0.400nm", "through.S0.500nm", "film1.other", NULL};
+	static const char *const lamp[] = {"lamp2.S0.400nm", "lamp2.S0.500nm",
+		"lamp1.S0.400nm", "lamp1.S0.500nm", NULL};
 
 	(void)state;
 	for (int i = 0; i < 2; i++) {
@@ -542,6 +545,9 @@ test_geometry(void **state)
 	light();
 	new_image(SPEC_ROLE_EMISSIVE, 1, 2, channels);
 	refused_as(plan(SPEC_ARITHMETIC_ADD), "light layers of 0 films and of 0 lamps");
+	new_image(SPEC_ROLE_EMISSIVE, 1, 2, lamp);
+	new_image(SPEC_ROLE_EMISSIVE, 1, 2, &lamp[2]);
+	refused_as(plan(SPEC_ARITHMETIC_ADD), "and of 2 lamps, b.exr of 0 and of 1");
 }
 
 /* Directions have length 1 again, and what not all images have is the first's. */
@@ -616,6 +622,7 @@ test_expressions(void **state)
 	ok(plan_expression("a(450)", SPEC_ROLE_OTHER));
 	is(BAND, 2);
 	ok(spec_image_set_text(&image[0], "spec:quantity", "radiance per band", &error));
+	assert_int_equal(plan_expression("a(399.9985)", SPEC_ROLE_OTHER), SPEC_ERANGE);
 	ok(plan_expression("a(400.001)", SPEC_ROLE_OTHER));
 	is(BAND, 1);
 	refused_as(plan_expression("a(450)", SPEC_ROLE_OTHER),

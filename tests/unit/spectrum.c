@@ -57,6 +57,33 @@ grid_has_its_wavelengths(void **state)
 	spec_grid_free(&grid);
 }
 
+/* Within 0.001 nm, and within a quarter of the way to the next. */
+static void
+grid_knows_its_wavelengths(void **state)
+{
+	static const double known_nm[] = {400, 500, 500.002};
+	static const struct {
+		double nm;
+		size_t nearest;
+		int same;
+	} cases[] = {{399.9991, 0, 1}, {399.9989, 0, 0}, {400.0009, 0, 1}, {400.0011, 0, 0},
+		{499.9996, 1, 1}, {499.9994, 1, 0}, {500.0004, 1, 1}, {500.0006, 1, 0},
+		{500.0014, 2, 0}, {500.0016, 2, 1}, {500.0024, 2, 1}, {500.0026, 2, 0},
+		{1, 0, 0}, {1e9, 2, 0}};
+	int same;
+
+	(void)state;
+	for (size_t i = 0; i < COUNT(cases); i++) {
+		assert_int_equal(
+			spec_grid_nearest(known_nm, COUNT(known_nm), cases[i].nm, &same),
+			cases[i].nearest);
+		if (same != cases[i].same)
+			fail_msg("%.10g nm", cases[i].nm);
+	}
+	assert_int_equal(spec_grid_nearest(known_nm, 1, 400.0009, &same), 0);
+	assert_true(same);
+}
+
 static void
 grid_refuses_nonsense(void **state)
 {
@@ -1000,6 +1027,7 @@ main(void)
 {
 	const struct CMUnitTest tests[] = {
 		cmocka_unit_test(grid_has_its_wavelengths),
+		cmocka_unit_test(grid_knows_its_wavelengths),
 		cmocka_unit_test(grid_refuses_nonsense),
 		cmocka_unit_test(spd_reads_a_full_file),
 		cmocka_unit_test(spd_reads_plain_pairs_and_csv),
