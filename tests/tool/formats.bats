@@ -46,6 +46,20 @@ two_channels() {
   [[ $stderr = *"'light' is neither radiance nor reflectance" ]] || complain "$stderr"
 }
 
+@test "the flag for long names is there from 32 bytes on" {
+  long=$(printf 'x%.0s' {1..32})
+  while read -r flags arguments; do
+    # shellcheck disable=SC2086 # several words
+    spectral a.exr --size 1x1 $arguments
+    [ "$(od -An -tu1 -j 4 -N 4 a.exr | xargs)" = "2 $flags 0 0" ] || complain "$arguments"
+  done <<END
+0 --extra ${long#x}
+4 --extra $long
+0 --attribute ${long#x}=a
+4 --attribute $long=a
+END
+}
+
 @test "Ocean's channels have their wavelengths in attributes, in metres" {
   "$TESTS/synthesize" --size 2x1 --channel a --channel b --pattern constant:0.5 \
     --attribute a.wavelength=5.5e-7 --attribute b.wavelength=4.5e-7 -o ocean.exr

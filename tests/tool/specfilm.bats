@@ -596,6 +596,12 @@ layers_refused() {
   layers_refused b.exr film2
   rename_channels film1 film0 a.exr c.exr
   layers_refused c.exr film1
+  # Numbers go to 4096, and have no zeros before them; else a name means nothing.
+  film_image d.exr --channel film4096.mirror.S0.500nm --size 2x1
+  layers_refused d.exr film2
+  film_image e.exr --channel film4097.mirror.S0.500nm --channel film02.mirror.S0.500nm --size 2x1
+  specfilm --stack "$soap" e.exr -o f.exr
+  has_channels f.exr S0.500,000000nm film02.mirror.S0.500nm film4097.mirror.S0.500nm
 }
 
 @test "a layer without one of the bands, or with another, is refused" {
