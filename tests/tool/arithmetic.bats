@@ -165,6 +165,9 @@ ratio() {
   [[ $stderr = *'the bin 460..480 nm is outside its bins, 490..550 nm'* ]] || complain "$stderr"
   specconvert -q --rebin --grid 470:530:20 --extrapolate zero a.exr -o b.exr
   near b.exr 'want = nm == 470 ? 0 : nm == 490 ? 0.5 : 1'
+  warns 'a.exr: has nothing at 550..560 nm: taken as at its end' \
+    specconvert --rebin --grid 510:550:20 --extrapolate constant a.exr -o b.exr
+  near b.exr 'want = 1'
 }
 
 @test "--rebin of point samples says what it takes for bins; a curve does the same" {
@@ -186,6 +189,10 @@ ratio() {
     --attribute 'spec:bins=495 505 520 540'
   specconvert --per band a.exr -o band.exr
   has_line band.exr 'spec:quantity (type string): "radiance per band"'
+  # Where there were no bins the bands are said to meet half-way.
+  spectral plain.exr --size 1x1 --grid 500:520:10
+  specconvert -q --per band plain.exr -o halfway.exr
+  has_line halfway.exr 'spec:bins (type string): "495 505 515 525"'
   specconvert --crop 0,0,1,1 band.exr -o one.exr
   near one.exr 'want = nm == 500 ? 0.001 * 10 : nm == 510 ? 0.101 * 15 : 0.201 * 20'
   specconvert --per nm band.exr -o back.exr
@@ -213,6 +220,8 @@ ratio() {
   # NIST: 588.99510 nm; its air has less carbon dioxide, by 1e-5 nm here
   exrheader air.exr | grep -qE 'S0\.588,9950(8|9)[0-9]nm'
   has_line air.exr 'spec:medium (type string): "air"'
+  # Ciddor's index of air at 550, 600 and 700 nm
+  exrheader air.exr | grep -q '^spec:bins (type string): "549.8472317 599.8338561 699.806990'
   specconvert --to-vacuum air.exr -o back.exr
   # names have six decimals, bins ten digits
   exrheader back.exr | grep -qE 'S0\.589,15832[5-7]nm'
@@ -250,6 +259,14 @@ ratio() {
   printf '%s\n' '0.5 2' '0.75 4' >um.csv
   warns 'um.csv: states no quantity: its values were left as they are' \
     specconvert --input-unit um um.csv -o nm.spd
+  has_numbers nm.spd '500 2' '750 4'
+  printf '%s\n' '# quantity: radiance per um' '0.5 2' '0.75 4' >density.spd
+  specconvert --input-unit um density.spd -o nm.spd
+  has_numbers nm.spd '500 0.002' '750 0.004'
+  grep -qx '# quantity: radiance per nm' nm.spd
+  # No density over the wavelength: the quantity does not end so.
+  sed 's/per um/per um of depth/' density.spd >depth.spd
+  specconvert --input-unit um depth.spd -o nm.spd
   has_numbers nm.spd '500 2' '750 4'
   fails_cleanly specconvert --input-unit eV um.csv -o x.spd
   spectral a.exr
@@ -328,6 +345,12 @@ ratio() {
   fails_cleanly specconvert --add ratio.spd light.exr -o x.exr
   fails_cleanly specconvert --add light.spd band.exr -o x.exr
   fails_cleanly specconvert --add light.spd ratio.spd -o x.spd
+  for unit in W kW; do
+    { printf '# quantity: spectral power distribution\n# unit: %s nm-1\n' $unit; printf '%s\n' '300 1' '800 1'; } >$unit.spd
+  done
+  fails_cleanly specconvert --add W.spd kW.spd -o x.spd
+  specconvert --add W.spd light.spd | grep -qx '# unit: W nm-1'
+  specconvert --add light.spd W.spd | grep -qx '# unit: W nm-1'
   fails_cleanly specconvert --raise 2 --add light.spd light.exr -o x.exr
   specconvert --illuminate light.spd --add light.spd paint.exr -o lit.exr
   specconvert --add ratio.spd paint.exr -o two.exr
@@ -373,7 +396,16 @@ ratio() {
   [ ! -s said ]
   specconvert --clamp 0..1 nan.exr -o b.exr
   pixel_holds b.exr b.exr 0,0 'if (to["S0.500,000000nm"] !~ /nan/) wrong(to["S0.500,000000nm"])'
+  warns 'b.exr: 2 samples have no finite power' \
+    specconvert --grid 500:500:1 --raise 1.5 a.exr -o b.exr
   light minus.spd 400 1 500 -1
+  specconvert --raise 2 minus.spd -o b.spd
+  [ "$(grep -c '^# quantity' b.spd)" -eq 0 ]
+  specconvert --raise 1 minus.spd -o b.spd
+  grep -qx '# quantity: spectral power distribution' b.spd
+  ratio half.spd 400 0.5 500 0.5
+  specconvert --raise 2 half.spd -o b.spd
+  grep -qx '# quantity: transmittance' b.spd
   fails_cleanly specconvert --raise 0.5 minus.spd -o b.spd
   [[ $stderr = *'500 nm'* ]] || complain "$stderr"
 }
@@ -419,6 +451,7 @@ ratio() {
   fails_cleanly specconvert --reflectance-of lamp.spd t2.exr -o x.exr
   spectral stokes.exr --kind stokes
   fails_cleanly specconvert --reflectance-of lamp.spd stokes.exr -o x.exr
+  [[ $stderr = *'is polarised, which reflectance (T) cannot say' ]] || complain "$stderr"
   "$TESTS/layers" --scene flat --size 4x4 --grid 400:700:50 -o layers.exr
   fails_cleanly specconvert --reflectance-of D65 layers.exr -o x.exr
   spectral band.exr --quantity 'radiance per band'

@@ -122,6 +122,10 @@ as_good_as() {
   has_line b.exr 'altitude (type float): 99'
   exrheader b.exr >header
   run ! grep capDate header
+  scene d.pbrt 'Camera "perspective" "string place" "10S 20W 99m" "string toward" "0N 0E"' "LightSource \"daylight\" $leuven $noon"
+  render d.pbrt -o d.exr
+  has_line d.exr 'latitude (type float): -10'
+  has_line d.exr 'capDate (type string): "2005:05:17 12:00:00"'
   scene c.pbrt ''
   render c.pbrt -o c.exr
   exrheader c.exr >header

@@ -110,6 +110,8 @@ shows() {
   fails_cleanly specconvert --projection cross --scale 2 ll.exr -o x.exr
   fails_cleanly specconvert --projection cross --crop 0,0,4,4 ll.exr -o x.exr
   fails_cleanly specconvert --projection cross ll.exr -f spd
+  fails_cleanly specconvert --projection cross --to fourier:3 ll.exr -o x.exr
+  fails_cleanly specconvert --projection cross --from-rgb basis ll.exr -o x.exr
   fails_cleanly specconvert --projection cross D65 -o x.exr
   fails_cleanly specconvert --projection cross --limit memory=8k ll.exr -o x.exr
   [[ $stderr = *'--limit memory'* ]] || complain "$stderr"

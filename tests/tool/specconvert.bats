@@ -97,6 +97,15 @@ last_uints() {
   same grid.exr bands.exr
 }
 
+@test "a wavelength within 0.001 nm of a band is that band, a farther one lies between" {
+  printf '%s\n' '500 0' '501 1000' '502 0' >steep.spd
+  specconvert steep.spd -o a.exr
+  specconvert --grid 500.0009:500.0009:1 a.exr -o same.exr
+  specconvert --grid 500.002:500.002:1 a.exr -o between.exr
+  has_numbers same.exr '500.0009 0'
+  has_numbers between.exr '500.002 2'
+}
+
 @test "--grid serves every Stokes component" {
   spectral a.exr --size 2x2 --kind stokes --pattern constant:1
   spectral want.exr --size 2x2 --kind stokes --pattern constant:1 --grid 405:695:10
@@ -371,9 +380,10 @@ last_uints() {
 
 @test "a factor that is none is refused" {
   spectral a.exr
-  for factor in 0 -2 1.5 x ''; do
+  for factor in 0 -2 1.5 x '' 65537; do
     fails_cleanly specconvert --downsample "$factor" a.exr -o b.exr
   done
+  [[ $stderr = *'the factor is outside 1..65536'* ]] || complain "$stderr"
 }
 
 # Curves
@@ -961,6 +971,11 @@ energy() {
   specconvert -g 400:700:100 15-red -o red.exr
   specconvert --illuminate series.spd red.exr -o lit.exr
   has_channels lit.exr S0.400,000000nm S0.500,000000nm S0.600,000000nm S0.700,000000nm
+  for change in --to-air '--input-unit um' '--rebin -g 400:700:50'; do
+    # shellcheck disable=SC2086 # words
+    fails_cleanly specconvert $change series.spd
+    [[ $stderr = *'series.spd: units, media and bins are for tables'* ]] || complain "$stderr"
+  done
 }
 
 @test "--interp says what lies between the rows" {
@@ -995,4 +1010,6 @@ energy() {
   wrong 'covers 380..780 nm, not 300 nm' --to sampled:300:700:100 F2
   wrong '--to makes text' --to tabulated F2 -o a2.exr
   wrong '--interp is for --grid' --interp left a.exr
+  wrong '--grid and --to exclude each other' -g 400:700:10 --to tabulated F2
+  wrong 'has the image'"'"'s own bands' --to sampled:400:700:10 a.exr
 }
