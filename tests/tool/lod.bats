@@ -340,6 +340,17 @@ coarse() {
   done
 }
 
+@test "a bound on the mean is one on that of the pixels that are finite" {
+  spectral grain.exr --grid 400:720:5 --pattern grain
+  speccomp --expr 'x < 8 ? 0 / 0 : a' grain.exr -o half.exr
+  spec2rgb -q --lod 0 --error half.exr -o x.png 2>said
+  bound=$(awk '$1 == "de2000" { print 0.75 * $2 }' said)
+  spec2rgb -q --lod "de2000:$bound" --error half.exr -o x.png 2>said
+  [ "$(reported nonfinite said)" = 64 ]
+  at_most "$(reported de2000 said)" "$bound"
+  [ "$(reported level said)" -gt 0 ]
+}
+
 # Bad input
 
 @test "levels and steps that make no sense" {
