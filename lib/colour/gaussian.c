@@ -5,15 +5,12 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "colour/dominant.h"
 #include "colour/observer.h"
 #include "colour/upsample.h"
 #include "spectrum/lookup.h"
 
 #define LN_2 0.693147180559945309417
-
-/* The spectrum locus, as far as its chromaticities are told apart. */
-#define LOCUS_FROM_NM 380
-#define LOCUS_TO_NM 700
 
 /* Chromaticities closer to white than this have no direction. */
 #define SAME_XY 1e-12
@@ -23,75 +20,26 @@
 
 static const double centre_nm[3] = {680, 550, 450};
 
-/* The observer's chromaticity of a wavelength, less the white's. */
-static void
-locus_at(const struct spec_curve *observer, size_t i, const double white_xy[2],
-	double from_white[2])
-{
-	double x = observer->value[i], y = observer->value[observer->count + i];
-	double sum = x + y + observer->value[2 * observer->count + i];
-
-	from_white[0] = x / sum - white_xy[0];
-	from_white[1] = y / sum - white_xy[1];
-}
-
-/* One over the distance at which the ray along a direction crosses the side a..b, or 0. */
-static double
-nearness_of_side(const double a[2], const double b[2], const double direction[2])
-{
-	double side[2] = {b[0] - a[0], b[1] - a[1]};
-	double across = direction[0] * side[1] - direction[1] * side[0];
-	double along = (a[1] * direction[0] - a[0] * direction[1]) / -across;
-	double distance = (a[0] * side[1] - a[1] * side[0]) / across;
-
-	if (!(along >= -1e-9 && along <= 1 + 1e-9 && distance > 0))
-		return 0;
-	return 1 / distance;
-}
-
-/* Of several crossings the farthest counts. */
-static double
-nearness_along(const struct spec_curve *observer, const double white_xy[2], double angle)
-{
-	double direction[2] = {cos(angle), sin(angle)}, first[2], last[2] = {0}, next[2];
-	double least = HUGE_VAL;
-	int begun = 0;
-
-	for (size_t i = 0; i < observer->count; i++) {
-		double nearness;
-
-		if (observer->wavelength_nm[i] < LOCUS_FROM_NM ||
-			observer->wavelength_nm[i] > LOCUS_TO_NM)
-			continue;
-		locus_at(observer, i, white_xy, next);
-		if (!begun++)
-			memcpy(first, next, sizeof first);
-		else if ((nearness = nearness_of_side(last, next, direction)) > 0)
-			least = fmin(least, nearness);
-		memcpy(last, next, sizeof last);
-	}
-	if (begun) {
-		double nearness = nearness_of_side(last, first, direction);
-
-		least = nearness > 0 ? fmin(least, nearness) : least;
-	}
-	return least;
-}
-
+/* Purity goes with the distance from white: at a distance of 1 it is 1 over the locus's. */
 static enum spec_status
 find_locus(const struct spec_curve *observer, struct spec_gaussian_fit *fit,
 	struct spec_error *error)
 {
-	for (size_t k = 0; k <= SPEC_GAUSSIAN_DIRECTIONS; k++) {
-		double angle = M_PI * (2 * (double)k / SPEC_GAUSSIAN_DIRECTIONS - 1);
+	const double *white = fit->white_xy;
+	enum spec_status status = SPEC_OK;
 
-		fit->nearness[k] = nearness_along(observer, fit->white_xy, angle);
-		if (!isfinite(fit->nearness[k]))
-			return spec_error_set(error, SPEC_EFORMAT,
+	for (size_t k = 0; k <= SPEC_GAUSSIAN_DIRECTIONS && status == SPEC_OK; k++) {
+		double angle = M_PI * (2 * (double)k / SPEC_GAUSSIAN_DIRECTIONS - 1);
+		double xy[2] = {white[0] + cos(angle), white[1] + sin(angle)}, nm;
+
+		status = spec_dominant_find(
+			observer, xy, white, &nm, &fit->nearness[k], error);
+		if (status == SPEC_OK && !isfinite(fit->nearness[k]))
+			status = spec_error_set(error, SPEC_EFORMAT,
 				"the observer '%s' has no locus around white",
 				observer->title);
 	}
-	return SPEC_OK;
+	return status;
 }
 
 /* The weights of light itself, at the observer's samples. */
