@@ -24,6 +24,14 @@ size() {
   sed -n 2p "$1" | tr -d '\0'
 }
 
+# number FILE.ppm LEFT RIGHT: the columns that have ink below a legend's colours, as 0 and 1.
+number() {
+  tail -c +$((16 + 3 * 256 * 20)) "$1" | od -An -v -tu1 -w768 | awk -v left="$2" -v right="$3" 'NR <= 13 {
+      for (x = left; x < right; x++) column[x] = column[x] ($(3 * x + 1) < 128 ? 1 : 0)
+    }
+    END { for (x = left; x < right; x++) if (column[x] ~ /1/) print column[x] }'
+}
+
 # numbered FILE EXPRESSION: an image of 11 x 2 pixels, bands of 400 to 700 nm by 50.
 numbered() {
   spectral grid.exr --size 11x2 --grid 400:700:50 --pattern constant:1
@@ -148,6 +156,12 @@ END
   spec2rgb --expr 'b550' --legend x.exr -o label.ppm
   cmp <(head -c $((15 + 3 * 256 * 36)) legend.ppm) <(head -c $((15 + 3 * 256 * 36)) label.ppm)
   run ! cmp -s legend.ppm label.ppm
+  # half-way stands 7, as where a scale begins there
+  spec2rgb --band 550 --range 7..9 --legend x.exr -o seven.ppm
+  [ -n "$(number legend.ppm 100 156)" ]
+  [ "$(number legend.ppm 100 156)" = "$(number seven.ppm 0 60)" ] ||
+    complain "$(number legend.ppm 100 156)" "$(number seven.ppm 0 60)"
+  run ! test "$(number legend.ppm 100 156)" = "$(number legend.ppm 0 60)"
   # wider pictures have wider legends
   spectral wide.exr --size 300x2 --grid 400:500:50
   spec2rgb --band 400 --legend wide.exr -o wide.ppm
@@ -295,6 +309,15 @@ END
   layers --scene sphere --size 32x32 -o ball.exr
   spec2rgb --layer film1.P ball.exr -o p.ppm
   [ "$(size p.ppm)" = '32 32' ]
+  # positions from the least component to the largest
+  [ "$(tail -c 3072 p.ppm | od -An -v -tu1 -w1 | sort -nu | sed -n '1p;$p' | xargs)" = '0 255' ]
+  # directions from -1 to 1, object coordinates from 0 to 1
+  local name
+  for name in N Ns Tan I film1.N lamp1.D Q film1.Q; do
+    spectral v.exr --size 2x2 --channel $name.X --channel $name.Y --channel $name.Z --pattern constant:0.25
+    spec2rgb --layer $name v.exr -o v.ppm
+    case $name in *Q) is '64 64 64' v.ppm 1 1 ;; *) is '159 159 159' v.ppm 1 1 ;; esac
+  done
 }
 
 # Formats, pipes, threads

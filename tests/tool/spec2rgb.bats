@@ -1239,6 +1239,9 @@ close() {
   spec2rgb -v --absolute light.exr -o x.exr 2>said
   grep -q '; Y in cd/m^2, by 683 lm/W; ' said
   exrheader x.exr | grep -qx 'whiteLuminance (type float): 1'
+  # Only of RGB.
+  spec2rgb -v --absolute --space xyz light.exr -o x.exr 2>said
+  exrheader x.exr | { run ! grep whiteLuminance; }
   # Reflectance has none, and a tone curve leaves none; whole numbers say nothing of it.
   spec2rgb -v --rule astm --illuminant A card.exr -o x.exr 2>said
   grep -qx "spec2rgb: card.exr: rule astm, .*; illuminant CIE standard illuminant A; Y = 1: the perfect reflector; outside: 0\... % of Y" said
