@@ -1,9 +1,13 @@
 #include "image/legend.h"
 
+#include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 
 #define GAP SPEC_LEGEND_GAP
 #define BAR 12 /* pixels, the height of the colours */
+#define LEAST_DIGITS 3
+#define MOST_DIGITS 10
 #define LINE (GAP + SPEC_CANVAS_TEXT_HEIGHT)
 
 size_t
@@ -12,13 +16,22 @@ spec_legend_height(const struct spec_legend *legend)
 	return 2 * GAP + BAR + LINE + (legend->label_below ? LINE : 0);
 }
 
+/*
+ * A number of the scale from low to high, by as few digits as keep it within a hundredth of
+ * the scale: 0.9995 between 0.999 and 1 must not become 1.
+ */
 static void
-draw_number(struct spec_canvas *canvas, double number, size_t x, size_t y,
-	enum spec_canvas_anchor anchor)
+draw_number(struct spec_canvas *canvas, const struct spec_legend *legend, double number,
+	size_t x, size_t y, enum spec_canvas_anchor anchor)
 {
+	double off = fabs(legend->high - legend->low) / 100;
+	int digits = LEAST_DIGITS - 1;
 	char text[32];
 
-	snprintf(text, sizeof text, "%.3g", number);
+	do {
+		digits++;
+		snprintf(text, sizeof text, "%.*g", digits, number);
+	} while (digits < MOST_DIGITS && fabs(strtod(text, NULL) - number) > off);
 	spec_canvas_text(canvas, x, y, anchor, text);
 }
 
@@ -32,10 +45,10 @@ spec_legend_draw(const struct spec_legend *legend, struct spec_canvas *canvas)
 		for (size_t y = 0; y < BAR; y++)
 			legend->map->colour((double)x / (double)(width - 1),
 				spec_canvas_pixel(canvas, GAP + x, top + y));
-	draw_number(canvas, legend->low, GAP, below, SPEC_CANVAS_BEGINNING);
-	draw_number(canvas, legend->low + (legend->high - legend->low) / 2, GAP + width / 2,
-		below, SPEC_CANVAS_MIDDLE);
-	draw_number(canvas, legend->high, GAP + width, below, SPEC_CANVAS_END);
+	draw_number(canvas, legend, legend->low, GAP, below, SPEC_CANVAS_BEGINNING);
+	draw_number(canvas, legend, legend->low + (legend->high - legend->low) / 2,
+		GAP + width / 2, below, SPEC_CANVAS_MIDDLE);
+	draw_number(canvas, legend, legend->high, GAP + width, below, SPEC_CANVAS_END);
 	if (legend->label_below)
 		spec_canvas_text(
 			canvas, GAP, below + LINE, SPEC_CANVAS_BEGINNING, legend->label);

@@ -955,6 +955,15 @@ ppm_height() {
   [ -s same.png ]
 }
 
+# 0.9991 and 0.9994 are 0.999 by three digits, and what is half-way from there to 1 would be 1.
+@test "--heatmap: the legend tells numbers apart that are nearly 1" {
+  spectral a.exr --grid 500:600:50
+  for most in 9 6; do
+    answers 0 specdiff --heatmap-metric gfc --heatmap-max 0.000$most --heatmap $most.ppm a.exr a.exr
+  done
+  run ! cmp 9.ppm 6.ppm
+}
+
 @test "--heatmap: grey outside the mask" {
   spectral a.exr --uint-id
   answers 0 specdiff --mask id=3 --heatmap map.ppm a.exr a.exr
