@@ -173,14 +173,20 @@ spec_metric_max(const struct spec_images *result)
 	return most;
 }
 
+/* Where the extreme is; where it is not finite, the first pixel that makes it so. */
 static void
-take_place(struct spec_metric_value *value, const struct spec_measure_extreme *extreme)
+take_place(struct spec_metric_value *value, const struct spec_measure *measure,
+	const struct spec_measure_extreme *extreme, double best)
 {
-	if (!(extreme->value > 0))
+	const struct spec_measure_place *place = &extreme->place;
+
+	if (measure->nonfinite > 0)
+		place = &measure->nonfinite_first;
+	else if (measure->pixels == 0 || extreme->value == best)
 		return;
 	value->has_place = 1;
-	value->x = extreme->place.x;
-	value->y = extreme->place.y;
+	value->x = place->x;
+	value->y = place->y;
 }
 
 static double
@@ -226,13 +232,15 @@ enum spec_status
 spec_metric_measure(const struct spec_metric *metric, const struct spec_images *result,
 	double peak, struct spec_metric_value *value, struct spec_error *error)
 {
+	const struct spec_measure *spectral = &result->spectral;
 	enum spec_status status = SPEC_OK;
 
 	*value = (struct spec_metric_value){0};
 	if (metric->kind == SPEC_METRIC_PERCENTILE) {
 		status = spec_images_percentile(result, metric->map, metric->percent,
 			&value->value, &value->x, &value->y, error);
-		value->has_place = value->value > 0;
+		value->has_place =
+			metric->larger_is_better ? value->value < 1 : value->value > 0;
 		return status;
 	}
 	if (metric->kind == SPEC_METRIC_MEAN)
@@ -240,9 +248,11 @@ spec_metric_measure(const struct spec_metric *metric, const struct spec_images *
 	else
 		value->value = value_of(metric->kind, result, peak);
 	if (metric->kind == SPEC_METRIC_ANGLE_MAX)
-		take_place(value, &result->spectral.angle_most);
+		take_place(value, spectral, &spectral->angle_most, 0);
 	else if (metric->kind == SPEC_METRIC_COLOUR_MAX)
-		take_place(value, &result->spectral.colour_most);
+		take_place(value, spectral, &spectral->colour_most, 0);
+	else if (metric->kind == SPEC_METRIC_FIT_MIN)
+		take_place(value, spectral, &spectral->fit_least, 1);
 	return status;
 }
 

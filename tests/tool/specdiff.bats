@@ -321,6 +321,24 @@ de2000-max 0' ] || complain "$answer"
   prints 'gfc-min    1'
 }
 
+@test "the extremes of pixels have their places, and a NaN is one" {
+  spectral a.exr --size 4x3 --grid 500:600:50 --pattern constant:1
+  spectral nan.exr --size 4x3 --grid 500:600:50 --pattern nan:2,1,0
+  spectral ramp.exr --size 4x3 --grid 500:600:50
+  extremes=sam-max,gfc-min,gfc-p0,de2000-max,de76-max
+  answers 1 specdiff -m $extremes a.exr nan.exr
+  for name in sam-max gfc-min gfc-p0 de2000-max de76-max; do
+    grep -qE "^$name +-?inf( rad)? at 2,1\$" <<<"$answer" || complain "$answer"
+  done
+  # The first pixel of the ramp is the farthest from grey.
+  answers 1 specdiff -m $extremes a.exr ramp.exr
+  for name in sam-max gfc-min gfc-p0; do
+    grep -qE "^$name +[0-9.e-]+( rad)? at 0,0\$" <<<"$answer" || complain "$answer"
+  done
+  answers 0 specdiff -m $extremes a.exr a.exr
+  [[ $answer != *" at "* ]]
+}
+
 @test "the peak of psnr is the first image's, or what --peak says" {
   spectral a.exr --pattern constant:1
   spectral b.exr --pattern constant:1.5
