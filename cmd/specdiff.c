@@ -275,6 +275,10 @@ parse(struct cli *cli, struct job *job)
 		cli_usage(cli, "only one of the images can come from standard input");
 	if (report->exact && job->setup.resample)
 		cli_usage(cli, "--exact and --resample exclude each other");
+	if ((job->has_map || job->heatmap.most > 0) && !job->heatmap_path &&
+		!job->side_path)
+		cli_usage(cli, "%s is for --heatmap and --side-by-side",
+			job->has_map ? "--heatmap-metric" : "--heatmap-max");
 	check_outputs(cli, job);
 	for (size_t i = 0; i < SPEC_METRICS_USUAL && !job->any_chosen; i++)
 		report->metric[i].shown = 1;

@@ -1080,6 +1080,16 @@ ppm_height() {
   fails_cleanly specdiff
 }
 
+@test "what is said of pictures is refused where there are none" {
+  spectral a.exr
+  for option in --heatmap-metric=max --heatmap-max=1; do
+    fails_cleanly specdiff $option a.exr a.exr
+    [[ $stderr = *"${option%=*} is for --heatmap and --side-by-side"* ]] || complain "$stderr"
+    answers 0 specdiff $option --side-by-side a.png a.exr a.exr
+    answers 0 specdiff $option --heatmap a.png a.exr a.exr
+  done
+}
+
 @test "an unknown metric is refused by name" {
   spectral a.exr
   fails_cleanly specdiff --metric rmse,rsme a.exr a.exr
