@@ -26,9 +26,10 @@ static const struct cli_option options[] = {
 		"lab, xyy, or 'xr,yr xg,yg xb,yb xw,yw' (default: srgb)"},
 	{0, "transfer", "linear|srgb|rec709|rec2020|adobe|dci|gamma:G",
 		"encode whole numbers so (default: as the space has it)"},
-	{0, "adapt", "none|vonkries|bradford|cat02|cat16|daylight[:METHOD]",
+	{0, "adapt", "none|vonkries|bradford|cat02|cat16|SPD[:METHOD]",
 		"adapt reflectance to the white of the space, or light from "
-		"the daylight of its own place and time (default: none)"},
+		"this light, of which daylight is that of its own place and "
+		"time (default: none)"},
 	{'e', "exposure", "EV|auto|auto:P%",
 		"multiply by 2^EV (default: 0), or so that the average becomes "
 		"0.18, or the percentile 1"},
@@ -89,7 +90,8 @@ struct job {
 	const struct spec_model *model; /* or null */
 	struct spec_space space;        /* with the transfer function that is used */
 	const char *space_text;         /* or null, as the next */
-	int untold; /* which space it is cannot be seen in the picture */
+	int untold;    /* which space it is cannot be seen in the picture */
+	int unadapted; /* it is light, and no light to adapt from is known */
 	const struct spec_transfer *transfer;
 	struct spec_transfer gamma; /* where that is a power */
 	struct spec_look look;
@@ -381,6 +383,8 @@ plan(struct job *job, struct spec_reader *reader, const struct spec_image *image
 		status = spec_own_adaptation(
 			job->adapt, whole, name, &setup.adaptation, &light, error);
 	setup.light = light.count > 0 ? &light : NULL;
+	job->unadapted = setup.adaptation != SPEC_ADAPTATION_NONE && !setup.light &&
+			 image->role != SPEC_ROLE_REFLECTIVE;
 	if (status == SPEC_OK) {
 		status = spec_rgb_plan(rgb, image, &setup, error);
 		if (status != SPEC_OK)
@@ -547,6 +551,9 @@ show_colours(struct cli *cli, struct job *job, struct spec_reader *reader,
 	if (!job->settings.quiet && rgb.outside > NOTICEABLE)
 		cli_warn(cli, "%s: %.1f %% of the luminance lies outside its bands", name,
 			100 * rgb.outside);
+	if (!job->settings.quiet && job->unadapted)
+		cli_warn(cli, "%s: light is adapted from a light alone, as by --adapt A:%s",
+			name, job->adapt);
 	if (!job->settings.quiet && job->untold)
 		cli_warn(cli,
 			"the format cannot tell the space, %s%s%s: who reads it takes it for sRGB",

@@ -29,9 +29,9 @@ enum spec_status spec_own_lookup_light(const char *name, const struct spec_image
 	const char *file, struct spec_curve *curve, struct spec_error *error);
 
 /*
- * An adaptation by its name, as spec_adaptation_find; or, of an emissive image, from its own
- * light, which light becomes: "daylight", and behind a colon the method, else Bradford's.
- * light is empty otherwise. SPEC_EUSAGE: the image is reflective.
+ * An adaptation by its name, as spec_adaptation_find; or, of an emissive image, from what
+ * light becomes, its own "daylight" or any light by its name: behind a colon the method, else
+ * Bradford's. light is empty otherwise. SPEC_EUSAGE: the image is reflective.
  */
 enum spec_status spec_own_adaptation(const char *text, const struct spec_image *image,
 	const char *file, enum spec_adaptation *method, struct spec_curve *light,

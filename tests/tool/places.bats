@@ -269,11 +269,49 @@ colour() {
   nearly "$(colour -e -1 --illuminant daylight --adapt bradford white.exr | cut -d ' ' -f 1)" .33333 .0002
 }
 
+@test "spec2rgb adapts light from any light, and says where it has none to" {
+  printf '%s\n' '# quantity: reflectance' '360 1' '830 1' >white.spd
+  specconvert -g 360:830:5 --patches 1x1 white.spd -o white.exr
+  for light in A blackbody:2700K daylight:5000K FL2; do
+    specconvert --illuminate "$light" --extrapolate zero white.exr -o lit.exr
+    for method in '' :vonkries :bradford :cat02 :cat16; do
+      read -r red green blue < <(colour -e -7 --adapt "$light$method" lit.exr)
+      nearly "$red" .33333 .0002
+      nearly "$green" .33333 .0002
+      nearly "$blue" .33333 .0002
+    done
+  done
+  # A colour in that light is that of the surface under it, adapted so.
+  specconvert -g 380:780:5 --patches 1x1 15-red -o red.exr
+  specconvert --illuminate A red.exr | specconvert --scale .01 - -o lit.exr
+  spec2rgb --illuminant A --adapt cat16 red.exr -o under.exr
+  spec2rgb --adapt A:cat16 lit.exr -o lit-cat16.exr
+  spec2rgb --adapt A lit.exr -o lit-bradford.exr
+  ratios() { layers --print 0,0 "$1" | sort | awk '{ v[NR] = $2 } END { printf "%.3f %.3f\n", v[1] / v[2], v[3] / v[2] }'; }
+  read -r a b < <(ratios under.exr)
+  read -r c d < <(ratios lit-cat16.exr)
+  nearly "$a" "$c" .001
+  nearly "$b" "$d" .02
+  read -r c d < <(ratios lit-bradford.exr)
+  awk "BEGIN { exit !(($b - $d) ^ 2 > 1) }"
+  spec2rgb lit.exr -o plain.png 2>said
+  [ ! -s said ]
+  spec2rgb --adapt cat16 lit.exr -o same.png 2>said
+  [ "$(<said)" = 'spec2rgb: warning: lit.exr: light is adapted from a light alone, as by --adapt A:cat16' ]
+  cmp plain.png same.png
+  spec2rgb -q --adapt cat16 lit.exr -o same.png 2>said
+  [ ! -s said ]
+  trouble 'red.exr: A adapts light; reflectance is lit' spec2rgb --adapt A red.exr -o a.png
+  trouble "outside 100..1e+06" spec2rgb --adapt blackbody:3K lit.exr -o a.png
+  trouble "'blackbody:3000' is no light" spec2rgb --adapt blackbody:3000 lit.exr -o a.png
+  trouble "unknown adaptation 'cat97'" spec2rgb --adapt A:cat97 lit.exr -o a.png
+}
+
 @test "light that cannot be adapted from its daylight" {
   white 2005-05-17T12:00+02:00
   trouble 'white.exr: daylight adapts light' spec2rgb --adapt daylight white.exr -o a.png
   trouble "unknown adaptation 'best'" spec2rgb --adapt daylight:best lit.exr -o a.png
-  trouble "unknown adaptation 'best': expected none, vonkries, bradford, cat02 or cat16, or daylight" \
+  trouble "unknown adaptation 'best': expected none, vonkries, bradford, cat02 or cat16, or daylight or another light" \
     spec2rgb --adapt best lit.exr -o a.png
   specconvert --time 2005-05-17T23:00+02:00 lit.exr -o night.exr
   trouble 'degrees below the horizon' spec2rgb --adapt daylight night.exr -o a.png
