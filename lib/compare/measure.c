@@ -103,6 +103,22 @@ add_squares(struct chunk *restrict chunk, const float *restrict a, const float *
 	}
 }
 
+/* Always inlined: no loop with a call in it becomes vector code. */
+static inline __attribute__((always_inline)) void
+add_squares_of_four(struct chunk *restrict chunk, size_t i, double p0, double p1, double p2,
+	double p3, double q0, double q1, double q2, double q3)
+{
+	double d0 = p0 - q0, d1 = p1 - q1, d2 = p2 - q2, d3 = p3 - q3;
+
+	chunk->aa[i] += (p0 * p0 + p1 * p1) + (p2 * p2 + p3 * p3);
+	chunk->bb[i] += (q0 * q0 + q1 * q1) + (q2 * q2 + q3 * q3);
+	chunk->square[i] += (d0 * d0 + d1 * d1) + (d2 * d2 + d3 * d3);
+	chunk->worst[i] = greater(chunk->worst[i],
+		greater(greater(fabs(d0), fabs(d1)), greater(fabs(d2), fabs(d3))));
+	chunk->largest[i] = greater(chunk->largest[i],
+		greater(greater(fabs(p0), fabs(p1)), greater(fabs(p2), fabs(p3))));
+}
+
 /* Of four bands: the sums are loaded and stored a quarter as often. */
 SPEC_VECTORISED static void
 add_four_squares(struct chunk *restrict chunk, const float *const *a, const float *const *b)
@@ -115,15 +131,8 @@ add_four_squares(struct chunk *restrict chunk, const float *const *a, const floa
 	for (size_t i = 0; i < chunk->n; i++) {
 		double p0 = a0[i], p1 = a1[i], p2 = a2[i], p3 = a3[i];
 		double q0 = b0[i], q1 = b1[i], q2 = b2[i], q3 = b3[i];
-		double d0 = p0 - q0, d1 = p1 - q1, d2 = p2 - q2, d3 = p3 - q3;
 
-		chunk->aa[i] += (p0 * p0 + p1 * p1) + (p2 * p2 + p3 * p3);
-		chunk->bb[i] += (q0 * q0 + q1 * q1) + (q2 * q2 + q3 * q3);
-		chunk->square[i] += (d0 * d0 + d1 * d1) + (d2 * d2 + d3 * d3);
-		chunk->worst[i] = greater(chunk->worst[i],
-			greater(greater(fabs(d0), fabs(d1)), greater(fabs(d2), fabs(d3))));
-		chunk->largest[i] = greater(chunk->largest[i],
-			greater(greater(fabs(p0), fabs(p1)), greater(fabs(p2), fabs(p3))));
+		add_squares_of_four(chunk, i, p0, p1, p2, p3, q0, q1, q2, q3);
 	}
 }
 
@@ -182,15 +191,8 @@ add_four_bands(struct chunk *restrict chunk, const float *const *a, const float 
 	for (size_t i = 0; i < chunk->n; i++) {
 		double p0 = a0[i], p1 = a1[i], p2 = a2[i], p3 = a3[i];
 		double q0 = b0[i], q1 = b1[i], q2 = b2[i], q3 = b3[i];
-		double d0 = p0 - q0, d1 = p1 - q1, d2 = p2 - q2, d3 = p3 - q3;
 
-		chunk->aa[i] += (p0 * p0 + p1 * p1) + (p2 * p2 + p3 * p3);
-		chunk->bb[i] += (q0 * q0 + q1 * q1) + (q2 * q2 + q3 * q3);
-		chunk->square[i] += (d0 * d0 + d1 * d1) + (d2 * d2 + d3 * d3);
-		chunk->worst[i] = greater(chunk->worst[i],
-			greater(greater(fabs(d0), fabs(d1)), greater(fabs(d2), fabs(d3))));
-		chunk->largest[i] = greater(chunk->largest[i],
-			greater(greater(fabs(p0), fabs(p1)), greater(fabs(p2), fabs(p3))));
+		add_squares_of_four(chunk, i, p0, p1, p2, p3, q0, q1, q2, q3);
 		xyz_a[i] += (w[0] * p0 + w[1] * p1) + (w[2] * p2 + w[3] * p3);
 		xyz_b[i] += (w[0] * q0 + w[1] * q1) + (w[2] * q2 + w[3] * q3);
 		xyz_a[CHUNK + i] += (y[0] * p0 + y[1] * p1) + (y[2] * p2 + y[3] * p3);
