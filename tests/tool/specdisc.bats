@@ -763,8 +763,10 @@ negated() {
 }
 
 @test "--orders has the lamp's mirror direction as order 0" {
-  specdisc --orders --angle 30 --azimuth 90 --grid 550:550:1 | awk '$1 == 0 { exit !($3 > 29.9999 && $3 < 30.0001 && $4 == -90) }'
-  specdisc --orders --angle 0.5rad --grid 550:550:1 | awk '$1 == 0 { exit !($3 > 28.6478 && $3 < 28.648 && $4 == 180) }'
+  specdisc --orders --angle 30 --azimuth 90 --grid 550:550:1 |
+    awk '$1 == 0 { right = $3 > 29.9999 && $3 < 30.0001 && $4 == -90 } END { exit !right }'
+  specdisc --orders --angle 0.5rad --grid 550:550:1 |
+    awk '$1 == 0 { right = $3 > 28.6478 && $3 < 28.648 && $4 == 180 } END { exit !right }'
 }
 
 @test "--orders takes --track and grids" {

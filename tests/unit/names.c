@@ -418,6 +418,7 @@ test_bins(void **state)
 		"450\n550\n650"};
 	struct spec_image image = INDEXED("S0.500nm", "S0.600nm");
 	struct spec_error error;
+	char *written;
 
 	(void)state;
 	check(spec_image_set_text(&image, "spec:bins", "450 550.25 650", &error), &error);
@@ -432,6 +433,13 @@ test_bins(void **state)
 			fail_msg("'%s' was taken for bins", bad[i]);
 		assert_non_null(strstr(error.message, "spec:bins"));
 	}
+	/* Ten digits are written. */
+	check(spec_image_set_bins(
+		      &image, (const double[]){450.1234567, 550, 650}, 2, &error),
+		&error);
+	written = text_of(&image, "spec:bins");
+	assert_string_equal(written, "450.1234567 550 650");
+	free(written);
 	/* A bin that touches its wavelength is one. */
 	check(spec_image_set_text(&image, "spec:bins", "500 600 600.5", &error), &error);
 	check(spec_image_index(&image, "a", &error), &error);
