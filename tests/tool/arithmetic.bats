@@ -74,6 +74,7 @@ ratio() {
   [[ $stderr = *LO:HI:STEP* ]] || complain "$stderr"
   spectral rgb.exr --channel R --channel G --channel B
   fails_cleanly specconvert --grid rgb.exr a.exr -o c.exr
+  [[ $stderr = *'rgb.exr: has no spectral channel to take a grid from' ]] || complain "$stderr"
 }
 
 @test "--interp nearest and left" {
@@ -233,6 +234,9 @@ ratio() {
   spectral far.exr --size 1x1 --grid 2000:2100:100
   fails_cleanly specconvert --to-air far.exr -o x.exr
   [[ $stderr = *'230..1690 nm'* ]] || complain "$stderr"
+  spectral near.exr --size 1x1 --grid 220:320:100
+  fails_cleanly specconvert --to-air near.exr -o x.exr
+  [[ $stderr = *'230..1690 nm, not at 220 nm'* ]] || complain "$stderr"
   spectral glow.exr --size 1x1 --channel T.400nm --channel T.500nm --channel T.400nm.500nm
   fails_cleanly specconvert --to-air glow.exr -o x.exr
 }
@@ -550,12 +554,36 @@ ratio() {
   specconvert --downsample 2 a.exr -o b.exr
   pixel_holds a.exr b.exr 0,0 'is("P.X", 0); is("u", 0); is("id", 0)'
   # cover 0.001 .. of the ramp's pixels: 1, 2, 11 and 12 thousandths; id x + 65536 y
-  spectral a.exr --size 2x2 --channel cover --channel u --channel S0.500nm --uint-id
+  spectral a.exr --size 2x2 --channel cover --channel u --channel S0.500nm --channel v --uint-id
   specconvert --downsample 2 a.exr -o b.exr
   pixel_holds a.exr b.exr 0,0 '
     is("id", 65537)
     is("cover", 0.0065)
-    is("u", (1 * 0.101 + 2 * 0.102 + 11 * 0.111 + 12 * 0.112) / 26)'
+    is("u", (1 * 0.101 + 2 * 0.102 + 11 * 0.111 + 12 * 0.112) / 26)
+    is("v", (1 * 0.301 + 2 * 0.302 + 11 * 0.311 + 12 * 0.312) / 26)'
+  # One id everywhere, and nowhere its surface.
+  spectral a.exr --size 2x2 --channel S0.500nm --channel cover --pattern constant:0 --uint-id --compression none
+  size=$(wc -c <a.exr)
+  for line in 0 1; do
+    poke a.exr $((size - 8 - 32 * line)) "$(little 4 7)$(little 4 7)"
+  done
+  specconvert --downsample 2 a.exr -o b.exr
+  pixel_holds a.exr b.exr 0,0 'is("cover", 0); if (from["id"] != 7) wrong("no 7"); is("id", 0)'
+}
+
+@test "--downsample leaves the directions to lamps of unit length" {
+  "$TESTS/layers" --scene disc --size 16x16 --grid 500:600:100 -o a.exr
+  specconvert --downsample 4 a.exr -o b.exr
+  seen=0
+  for y in 0 1 2 3; do
+    for x in 0 1 2 3; do
+      "$TESTS/layers" --print $x,$y b.exr >pixel
+      awk '$1 == "cover" { cover = $2 } $1 ~ /^lamp1[.]D/ { square += $2 ^ 2 }
+        END { if (!(cover > 0)) exit 1; off = square - 1; exit off * off > 1e-12 ? 2 : 0 }' pixel && seen=$((seen + 1)) ||
+        [ $? -eq 1 ] || complain "$(<pixel)"
+    done
+  done
+  [ $seen -gt 3 ]
 }
 
 @test "R, G and B that are bands by name are no preview" {

@@ -82,8 +82,26 @@ shows() {
   [[ $(exrheader same.exr) != *envmap\ * ]] # which would be another shape's
   has_channels same.exr S0.400,000000nm S0.500,000000nm id
   specconvert --projection cross --half id.exr -o cross.exr
+  [ "$(exrheader cross.exr | grep -c '^    S0.*16-bit')" -eq 2 ]
   [ "$("$TESTS/layers" --print 0,0 cross.exr | grep '^id ')" = 'id 0' ]
   has_line same.exr 'displayWindow (type box2i): (0 0) - (31 15)'
+  spectral far.exr --size 8x4 --data -3,5 --display -10,-10,90,90 --grid 500:500:1
+  exrstdattr -pixelAspectRatio 2 far.exr wide.exr
+  specconvert --projection latlong wide.exr -o home.exr
+  has_line home.exr 'dataWindow (type box2i): (0 0) - (7 3)'
+  has_line home.exr 'displayWindow (type box2i): (0 0) - (7 3)'
+  has_line home.exr 'pixelAspectRatio (type float): 1'
+}
+
+@test "a pixel is the mean of 4 x 4 places, between which the input is linear, across the pole too" {
+  spectral one.exr --size 8x4 --grid 500:500:1 --pattern constant:1
+  speccomp --expr 'x == 2' one.exr -o column.exr
+  specconvert --projection latlong:2 column.exr -o half.exr
+  # At .25, .75, 1.25 and 1.75 pixels two columns have 7/16 each and those beside them 1/16; so have
+  # rows, of which the one beyond the pole is half around.
+  for pixel in '1,0 7/16*15/16' '0,0 1/16*15/16' '3,1 7/16*1/16' '2,0 1/16*1/16' '1,1 7/16*15/16'; do
+    pixel_holds half.exr half.exr "${pixel% *}" 'is("S0.500,000000nm", '"${pixel#* }"')'
+  done
 }
 
 @test "a pipe and any number of threads have the same image" {
@@ -115,6 +133,10 @@ shows() {
   fails_cleanly specconvert --projection cross D65 -o x.exr
   fails_cleanly specconvert --projection cross --limit memory=8k ll.exr -o x.exr
   [[ $stderr = *'--limit memory'* ]] || complain "$stderr"
+  spectral high.exr --size 256x128 --grid 500:500:1
+  fails_cleanly specconvert -j 1 --projection cross --limit memory=100k high.exr -o x.exr
+  [[ $stderr = *'high.exr: 256 x 128 pixels of 1 channels take more than the limit of 102400 bytes'* ]] || complain "$stderr"
+  rm high.exr
   fails_cleanly specconvert --projection cross:65535 ll.exr -o x.exr
   [[ $stderr = *'would become 87380 x 65535 pixels'*'--limit pixels'* ]] || complain "$stderr"
   specconvert --compression none ll.exr -o flat.exr

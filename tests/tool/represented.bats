@@ -94,6 +94,12 @@ make_wave() {
   make_wave
   fails_cleanly specconvert --to fourier:33 wave.exr -o out.exr
   [[ $stderr = *'wave.exr: 33 coefficients are more than its 31 bands'* ]] || complain "$stderr"
+  spectral many.exr --size 1x1 --grid 400:1430:1
+  fails_cleanly specconvert --to fourier:1027 many.exr -o out.exr
+  [[ $stderr = *'or than 1025' ]] || complain "$stderr"
+  spectral glow.exr --channel T.400nm --channel T.500nm --channel T.400nm.500nm
+  fails_cleanly specconvert --to composite:1 glow.exr -o out.exr
+  [[ $stderr = *'glow.exr: is bispectral; --illuminate it first' ]] || complain "$stderr"
   fails_cleanly specconvert --to fourier:4 wave.exr -o out.exr
   fails_cleanly specconvert --to composite:65 wave.exr -o out.exr
   fails_cleanly specconvert --to fourier:5 --scale 2 wave.exr -o out.exr

@@ -736,6 +736,14 @@ specconvert --crop 0,0,1,1 b.exr -o c.exr  # spectools $version
   exrheader d.exr | grep -q 'S0.600,000000nm, 16-bit floating-point'
 }
 
+@test "threads are 1 to 256" {
+  spectral a.exr --size 2x2
+  for threads in 0 257 1.5 x ''; do
+    fails_cleanly specconvert --threads "$threads" a.exr -o b.exr
+  done
+  specconvert --threads 256 a.exr -o b.exr
+}
+
 @test "every number of threads writes the same bytes" {
   spectral a.exr --size 61x67 --pattern grain --uint-id
   for compression in none zip piz; do
@@ -961,6 +969,20 @@ energy() {
   specconvert --to composite:2 - <lines.spd | cmp - again.spd
   fails_cleanly specconvert --to composite:0 lines.spd
   [[ $stderr = *"'lamp' has 1 line, more than the 0 asked for" ]] || complain "$stderr"
+}
+
+@test "a peak is a line where its feet are 30 nm apart or the rows beside it" {
+  line() {
+    specconvert --to composite:1 "$1" | sed -n 's/^line //p'
+  }
+  # Triangles with feet 30 and 32 nm apart: the area is half of their width times 10.
+  printf '%s\n' '400 1' '485 1' '500 11' '515 1' '600 1' >rows.spd
+  specconvert -g 400:600:1 rows.spd >narrow.spd
+  [ "$(line narrow.spd)" = '500 150' ] || complain "$(line narrow.spd)"
+  sed 's/^485/484/; s/^515/516/' rows.spd | specconvert -g 400:600:1 >broad.spd
+  [ -z "$(line broad.spd)" ] || complain "$(line broad.spd)"
+  printf '%s\n' '400 1' '450 1' '500 11' '550 1' '600 1' >coarse.spd
+  [ "$(line coarse.spd)" = '500 500' ] || complain "$(line coarse.spd)"
 }
 
 @test "a spectrum of another kind is read as a curve wherever one is wanted" {

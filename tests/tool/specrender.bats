@@ -88,6 +88,8 @@ same_channels() {
     --seed=1.5 --grid=600:500:1 --grid=500 --grid=0:5:1 --threads=0 --compression=dwaa --limit=x=1 --extrapolate=zero --extrapolate=; do
     fails_cleanly specrender "$option" a.pbrt -o b.exr
   done
+  fails_cleanly specrender --size 1048577x1 a.pbrt -o b.exr
+  [[ $stderr = *'outside 1..1048576'* ]] || complain "$stderr"
   for films in 0 17 x; do
     fails_cleanly specrender --defer film --films $films a.pbrt -o b.exr
   done

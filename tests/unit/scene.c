@@ -881,6 +881,9 @@ faults_of_materials_have_places(void **state)
 			"\"a\"",
 			"t.pbrt:1:31: 'normalmap' of Material \"diffuse\" is not supported"},
 		{SPEC_EUNSUPPORTED,
+			"WorldBegin Material \"diffuse\" \"float displacement\" 1",
+			"t.pbrt:1:31: 'displacement' of Material \"diffuse\" is not supported"},
+		{SPEC_EUNSUPPORTED,
 			"WorldBegin Material \"conductor\" \"rgb reflectance\" [1 "
 			"1 1]",
 			"t.pbrt:1:33: 'reflectance' of Material \"conductor\" is not "
