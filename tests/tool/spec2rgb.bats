@@ -489,9 +489,9 @@ xyz_of() {
   ln -s "$ROOT/spectra" spectra
   spectral a.exr
   export SPECTRA_PATH=$PWD/spectra
-  quiet bin/spec2rgb a.exr -o a.png
-  fails_cleanly bin/spec2rgb a.exr -o a.jpg
-  no_leftovers . a.exr a.png bin spectra
+  for suffix in png ppm pnm exr; do quiet bin/spec2rgb a.exr -o b.$suffix; done
+  for suffix in jpg tif hdr bmp; do fails_cleanly bin/spec2rgb a.exr -o c.$suffix; done
+  no_leftovers . a.exr b.png b.ppm b.pnm b.exr bin spectra
 }
 
 @test "bits that a format cannot hold are refused" {
