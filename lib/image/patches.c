@@ -221,9 +221,7 @@ spec_patches_curve(
 	if (status == SPEC_OK)
 		status = spec_decoder_open(&decoder, reader, NULL, error);
 	for (int y = image->data.y0; y < image->data.y1 && status == SPEC_OK; y++) {
-		status = spec_decoder_fetch(decoder, y, y + 1, error);
-		if (status == SPEC_OK)
-			status = spec_decoder_decode(decoder, error);
+		status = spec_decoder_read(decoder, y, error);
 		for (size_t i = 0; i < image->bands && status == SPEC_OK; i++) {
 			const float *row =
 				spec_decoder_row(decoder, y, image->band_channel[i]);

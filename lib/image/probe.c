@@ -98,9 +98,7 @@ read_pixel(const struct spec_image *image, struct spec_decoder *decoder, int fet
 	enum spec_status status = SPEC_OK;
 
 	if (!fetched)
-		status = spec_decoder_fetch(decoder, y, y + 1, error);
-	if (!fetched && status == SPEC_OK)
-		status = spec_decoder_decode(decoder, error);
+		status = spec_decoder_read(decoder, y, error);
 	for (size_t i = 0; i < image->channels && status == SPEC_OK; i++)
 		probe->value[i] = sample_of(
 			&image->channel[i], spec_decoder_row(decoder, y, i) + probe->x);

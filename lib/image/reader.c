@@ -424,6 +424,14 @@ spec_decoder_decode(struct spec_decoder *decoder, struct spec_error *error)
 	return status == SPEC_OK ? decoder->reader->format->decode(decoder, error) : status;
 }
 
+enum spec_status
+spec_decoder_read(struct spec_decoder *decoder, int y, struct spec_error *error)
+{
+	enum spec_status status = spec_decoder_fetch(decoder, y, y + 1, error);
+
+	return status == SPEC_OK ? spec_decoder_decode(decoder, error) : status;
+}
+
 const float *
 spec_decoder_row(const struct spec_decoder *decoder, int y, size_t channel)
 {

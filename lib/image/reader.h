@@ -98,6 +98,10 @@ enum spec_status spec_decoder_fetch(
 enum spec_status spec_decoder_decode(
 	struct spec_decoder *decoder, struct spec_error *error);
 
+/* Both, for line y alone. */
+enum spec_status spec_decoder_read(
+	struct spec_decoder *decoder, int y, struct spec_error *error);
+
 /*
  * The samples of a wanted channel in a fetched line: HALF converted to float, a
  * UINT's number if it is a band, its 32 bits if it is not. Valid until the next fetch.

@@ -35,9 +35,7 @@ take_lines(struct reprojection *it, struct spec_reader *reader, struct spec_erro
 	for (int y = image->data.y0; y < image->data.y1 && status == SPEC_OK; y++) {
 		float *line = it->sample + (size_t)(y - image->data.y0) * width * channels;
 
-		status = spec_decoder_fetch(decoder, y, y + 1, error);
-		if (status == SPEC_OK)
-			status = spec_decoder_decode(decoder, error);
+		status = spec_decoder_read(decoder, y, error);
 		for (size_t i = 0; i < channels && status == SPEC_OK; i++) {
 			const float *row = spec_decoder_row(decoder, y, i);
 

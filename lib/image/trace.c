@@ -179,10 +179,7 @@ read_columns(struct trace *trace, struct spec_reader *reader, struct spec_error 
 	for (int y = trace->y0; y < trace->y1 && status == SPEC_OK; y++) {
 		const float *row[3];
 
-		status = spec_decoder_fetch(
-			decoder, image->data.y0 + y, image->data.y0 + y + 1, error);
-		if (status == SPEC_OK)
-			status = spec_decoder_decode(decoder, error);
+		status = spec_decoder_read(decoder, image->data.y0 + y, error);
 		for (int c = 0; c < 3 && status == SPEC_OK; c++)
 			row[c] = spec_decoder_row(decoder, image->data.y0 + y, channel[c]);
 		for (int x = trace->x0; x < trace->x1 && status == SPEC_OK; x++) {

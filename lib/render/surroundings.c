@@ -115,9 +115,7 @@ read_lines(struct spec_surroundings *to, struct spec_reader *reader,
 	if (status == SPEC_OK)
 		status = spec_decoder_open(&decoder, reader, NULL, error);
 	for (int y = image->data.y0; y < image->data.y1 && status == SPEC_OK; y++) {
-		status = spec_decoder_fetch(decoder, y, y + 1, error);
-		if (status == SPEC_OK)
-			status = spec_decoder_decode(decoder, error);
+		status = spec_decoder_read(decoder, y, error);
 		if (status == SPEC_OK)
 			status = take_line(to, decoder, y, reader, blend, error);
 	}

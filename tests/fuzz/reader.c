@@ -31,10 +31,8 @@ pass_line(struct spec_decoder *decoder, struct spec_packer *packer,
 	const struct spec_image *image, int y)
 {
 	float *const *plane;
-	enum spec_status status = spec_decoder_fetch(decoder, y, y + 1, NULL);
+	enum spec_status status = spec_decoder_read(decoder, y, NULL);
 
-	if (status == SPEC_OK)
-		status = spec_decoder_decode(decoder, NULL);
 	if (status == SPEC_OK)
 		status = spec_packer_begin(packer, y, &plane, NULL);
 	if (status != SPEC_OK)

@@ -829,9 +829,7 @@ print_from(struct spec_reader *reader, int x, int y, struct spec_error *error)
 	status = spec_decoder_open(&decoder, reader, NULL, error);
 	if (status != SPEC_OK)
 		return status;
-	status = spec_decoder_fetch(decoder, line, line + 1, error);
-	if (status == SPEC_OK)
-		status = spec_decoder_decode(decoder, error);
+	status = spec_decoder_read(decoder, line, error);
 	if (status == SPEC_OK)
 		print_samples(image, decoder, x, y);
 	spec_decoder_close(decoder);

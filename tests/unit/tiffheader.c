@@ -58,8 +58,7 @@ holds(size_t width, size_t height, size_t channels, const char *wavelengths, siz
 		spec_image_attribute(spec_reader_image(reader), "ImageDescription")->size,
 		strlen(note));
 	assert_int_equal(spec_decoder_open(&decoder, reader, NULL, &error), SPEC_OK);
-	if (spec_decoder_fetch(decoder, (int)y, (int)y + 1, &error) != SPEC_OK ||
-		spec_decoder_decode(decoder, &error) != SPEC_OK)
+	if (spec_decoder_read(decoder, (int)y, &error) != SPEC_OK)
 		fail_msg("%s", error.message);
 	for (size_t c = 0; c < channels; c++) {
 		const float *row = spec_decoder_row(
