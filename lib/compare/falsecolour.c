@@ -52,7 +52,7 @@ spec_falsecolour_size(const struct spec_falsecolour_setup *setup,
 		return;
 	if (*width < SPEC_LEGEND_LEAST_WIDTH)
 		*width = SPEC_LEGEND_LEAST_WIDTH;
-	*height += spec_legend_height(&legend);
+	*height += spec_legend_height(&legend, *width);
 }
 
 /* --- samples --- */
@@ -266,7 +266,8 @@ add_legend(const struct colouring *colouring, struct spec_error *error)
 	const struct spec_falsecolour_setup *setup = colouring->setup;
 	struct spec_legend legend =
 		legend_of(setup, colouring->result->low, colouring->result->high);
-	size_t width = colouring->picture_width, height = spec_legend_height(&legend);
+	size_t width = colouring->picture_width;
+	size_t height = spec_legend_height(&legend, width);
 	void *samples = spec_memory_new(
 		3 * width, spec_picture_sample_bytes(colouring->sample), "pixels", error);
 	struct spec_canvas canvas = {0};

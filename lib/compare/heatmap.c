@@ -141,7 +141,8 @@ spec_heatmap_write(const char *path, const struct spec_images *result,
 	struct spec_legend legend = legend_of(heatmap, most, label);
 	struct spec_canvas canvas;
 	enum spec_status status = spec_canvas_open(&canvas, width,
-		spec_window_height(&result->region) + spec_legend_height(&legend), error);
+		spec_window_height(&result->region) + spec_legend_height(&legend, width),
+		error);
 
 	if (status != SPEC_OK)
 		return status;
@@ -166,7 +167,8 @@ spec_heatmap_side_by_side(const char *path, const struct spec_images *result,
 
 	if (status == SPEC_OK)
 		status = spec_canvas_open(&canvas, all,
-			spec_window_height(&result->region) + spec_legend_height(&legend),
+			spec_window_height(&result->region) +
+				spec_legend_height(&legend, all),
 			error);
 	if (status != SPEC_OK)
 		return status;

@@ -6,7 +6,7 @@
 
 #include "base/memory.h"
 
-#define DOT 2 /* pixels, a side of what characters are made of */
+#define DOT 2 /* pixels, a side of what characters are made of, by the scale of 1 */
 #define GLYPH_WIDTH 3
 #define GLYPH_HEIGHT (SPEC_CANVAS_TEXT_HEIGHT / DOT)
 #define ADVANCE ((GLYPH_WIDTH + 1) * DOT)
@@ -83,6 +83,7 @@ spec_canvas_open(
 {
 	canvas->width = width;
 	canvas->height = height;
+	canvas->scale = 1;
 	canvas->rgb = spec_memory_new(width * height, 3, "pixels", error);
 	if (!canvas->rgb)
 		return SPEC_ENOMEM;
@@ -106,21 +107,21 @@ spec_canvas_pixel(const struct spec_canvas *canvas, size_t x, size_t y)
 static void
 draw_glyph(struct spec_canvas *canvas, size_t x0, size_t y0, char character)
 {
-	size_t i = 0;
+	size_t i = 0, dot = DOT * canvas->scale;
 
 	while (i < sizeof glyphs / sizeof *glyphs && glyphs[i].character != character)
 		i++;
 	if (i == sizeof glyphs / sizeof *glyphs)
 		return;
-	for (size_t y = 0; y < GLYPH_HEIGHT * DOT; y++) {
-		for (size_t x = 0; x < GLYPH_WIDTH * DOT; x++) {
-			if (glyphs[i].row[y / DOT] & 4 >> x / DOT && x0 + x < canvas->width)
+	for (size_t y = 0; y < GLYPH_HEIGHT * dot; y++) {
+		for (size_t x = 0; x < GLYPH_WIDTH * dot; x++) {
+			if (glyphs[i].row[y / dot] & 4 >> x / dot && x0 + x < canvas->width)
 				memset(spec_canvas_pixel(canvas, x0 + x, y0 + y), 0, 3);
 		}
 	}
 }
 
-/* Pixels that a text takes. */
+/* Pixels that a text takes by the scale of 1. */
 static size_t
 text_width(const char *text)
 {
@@ -133,9 +134,9 @@ void
 spec_canvas_text(struct spec_canvas *canvas, size_t x0, size_t y0,
 	enum spec_canvas_anchor anchor, const char *text)
 {
-	size_t shift = (size_t)anchor * text_width(text) / 2;
+	size_t shift = (size_t)anchor * text_width(text) * canvas->scale / 2;
 
 	x0 = x0 > shift ? x0 - shift : 0;
-	for (; *text; text++, x0 += ADVANCE)
+	for (; *text; text++, x0 += ADVANCE * canvas->scale)
 		draw_glyph(canvas, x0, y0, (char)toupper((unsigned char)*text));
 }

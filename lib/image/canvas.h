@@ -6,15 +6,16 @@
 
 #include "base/error.h"
 
-#define SPEC_CANVAS_TEXT_HEIGHT 10 /* pixels */
+#define SPEC_CANVAS_TEXT_HEIGHT 10 /* pixels, times the scale */
 
 /* Red, green and blue of each pixel, encoded as sRGB, by rows. */
 struct spec_canvas {
 	size_t width, height;
+	size_t scale; /* of letters, 1 or more */
 	unsigned char *rgb;
 };
 
-/* All white. Error: SPEC_ENOMEM. */
+/* All white, with a scale of 1. Error: SPEC_ENOMEM. */
 enum spec_status spec_canvas_open(
 	struct spec_canvas *canvas, size_t width, size_t height, struct spec_error *error);
 void spec_canvas_close(struct spec_canvas *canvas);

@@ -10,10 +10,16 @@
 #define MOST_DIGITS 10
 #define LINE (GAP + SPEC_CANVAS_TEXT_HEIGHT)
 
-size_t
-spec_legend_height(const struct spec_legend *legend)
+static size_t
+scale_of(size_t width)
 {
-	return 2 * GAP + BAR + LINE + (legend->label_below ? LINE : 0);
+	return width < SPEC_LEGEND_WIDTH ? 1 : width / SPEC_LEGEND_WIDTH;
+}
+
+size_t
+spec_legend_height(const struct spec_legend *legend, size_t width)
+{
+	return (2 * GAP + BAR + LINE + (legend->label_below ? LINE : 0)) * scale_of(width);
 }
 
 /*
@@ -38,21 +44,23 @@ draw_number(struct spec_canvas *canvas, const struct spec_legend *legend, double
 void
 spec_legend_draw(const struct spec_legend *legend, struct spec_canvas *canvas)
 {
-	size_t top = canvas->height - spec_legend_height(legend) + GAP;
-	size_t width = canvas->width - 2 * GAP, below = top + BAR + GAP;
+	size_t scale = scale_of(canvas->width), gap = GAP * scale, bar = BAR * scale;
+	size_t top = canvas->height - spec_legend_height(legend, canvas->width) + gap;
+	size_t width = canvas->width - 2 * gap, below = top + bar + gap;
 
+	canvas->scale = scale;
 	for (size_t x = 0; x < width; x++)
-		for (size_t y = 0; y < BAR; y++)
+		for (size_t y = 0; y < bar; y++)
 			legend->map->colour((double)x / (double)(width - 1),
-				spec_canvas_pixel(canvas, GAP + x, top + y));
-	draw_number(canvas, legend, legend->low, GAP, below, SPEC_CANVAS_BEGINNING);
+				spec_canvas_pixel(canvas, gap + x, top + y));
+	draw_number(canvas, legend, legend->low, gap, below, SPEC_CANVAS_BEGINNING);
 	draw_number(canvas, legend, legend->low + (legend->high - legend->low) / 2,
-		GAP + width / 2, below, SPEC_CANVAS_MIDDLE);
-	draw_number(canvas, legend, legend->high, GAP + width, below, SPEC_CANVAS_END);
+		gap + width / 2, below, SPEC_CANVAS_MIDDLE);
+	draw_number(canvas, legend, legend->high, gap + width, below, SPEC_CANVAS_END);
 	if (legend->label_below)
-		spec_canvas_text(
-			canvas, GAP, below + LINE, SPEC_CANVAS_BEGINNING, legend->label);
+		spec_canvas_text(canvas, gap, below + LINE * scale, SPEC_CANVAS_BEGINNING,
+			legend->label);
 	else
 		spec_canvas_text(
-			canvas, GAP + width / 4, below, SPEC_CANVAS_MIDDLE, legend->label);
+			canvas, gap + width / 4, below, SPEC_CANVAS_MIDDLE, legend->label);
 }

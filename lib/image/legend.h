@@ -15,8 +15,13 @@ struct spec_legend {
 	int label_below;   /* it has a line of its own, as long ones need */
 };
 
-/* Pixels of its height. */
-size_t spec_legend_height(const struct spec_legend *legend);
+/*
+ * Pixels of its height below a picture so wide. It is drawn twice as large, three times and
+ * so on as a picture has whole multiples of WIDTH, so that it can be read where a large
+ * picture is shown small.
+ */
+#define SPEC_LEGEND_WIDTH 800
+size_t spec_legend_height(const struct spec_legend *legend, size_t width);
 
 /*
  * Draws it into the last rows of a canvas, at least LEAST_WIDTH wide: the colours, below

@@ -167,6 +167,21 @@ END
   spec2rgb --band 400 --legend wide.exr -o wide.ppm
   [ "$(size wide.ppm)" = '300 50' ]
   is "$last" wide.ppm 295 6
+  # and of 1600 pixels twice as large ones: a dot of the first digit, 0, is 4 pixels wide, not 2.
+  spectral hd.exr --size 1599x2 --grid 400:500:50
+  spec2rgb --band 400 --legend hd.exr -o hd.ppm
+  [ "$(size hd.ppm)" = '1599 50' ]
+  is '0 0 0' hd.ppm 9 22
+  is '255 255 255' hd.ppm 7 24
+  spectral hd.exr --size 1600x2 --grid 400:500:50
+  spec2rgb --band 400 --legend hd.exr -o hd.ppm
+  [ "$(size hd.ppm)" = '1600 98' ]
+  is "$first" hd.ppm 8 10
+  is '255 255 255' hd.ppm 7 10
+  is '0 0 0' hd.ppm 8 42
+  is '0 0 0' hd.ppm 11 49
+  is '255 255 255' hd.ppm 12 49
+  is '0 0 0' hd.ppm 16 49
 }
 
 # Polarisation
