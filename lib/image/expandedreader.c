@@ -104,22 +104,17 @@ find_role(const struct spec_image *stored, enum spec_role *role, int *stokes,
 				 "%s: has no coefficients, or two kinds of them", name);
 }
 
-/* Bands in place of coefficients. */
+/* Bands in place of coefficients, at the wavelengths that the image names. */
 static enum spec_status
-add_bands(struct expanded_reader *reader, struct spec_error *error)
+add_named_bands(struct expanded_reader *reader, enum spec_role role, int stokes,
+	struct spec_error *error)
 {
 	const struct spec_image *stored = spec_reader_image(reader->inner);
-	struct spec_image *image = &reader->base.image;
-	const char *name = reader->base.source.name;
 	char *text = NULL;
 	double *wavelength_nm = NULL;
 	size_t bands = 0;
-	enum spec_role role;
-	int stokes;
-	enum spec_status status = find_role(stored, &role, &stokes, name, error);
+	enum spec_status status = spec_image_text(stored, "spec:wavelengths", &text, error);
 
-	if (status == SPEC_OK)
-		status = spec_image_text(stored, "spec:wavelengths", &text, error);
 	if (status == SPEC_OK)
 		status = read_numbers(text ? text : "", &wavelength_nm, &bands, error);
 	if (status == SPEC_OK && bands < 2)
@@ -132,10 +127,27 @@ add_bands(struct expanded_reader *reader, struct spec_error *error)
 			"channels=N)",
 			bands, reader->base.limits.channels);
 	if (status == SPEC_OK)
-		status = spec_image_add_bands(image, role, stokes, wavelength_nm, bands,
-			SPEC_SAMPLE_FLOAT, error);
+		status = spec_image_add_bands(&reader->base.image, role, stokes,
+			wavelength_nm, bands, SPEC_SAMPLE_FLOAT, error);
 	free(text);
 	free(wavelength_nm);
+	return status;
+}
+
+static enum spec_status
+add_bands(struct expanded_reader *reader, struct spec_error *error)
+{
+	const char *name = reader->base.source.name;
+	enum spec_role role;
+	int stokes;
+	enum spec_status status =
+		find_role(spec_reader_image(reader->inner), &role, &stokes, name, error);
+
+	if (status != SPEC_OK)
+		return status;
+	status = add_named_bands(reader, role, stokes, error);
+	if (status != SPEC_OK && status != SPEC_ENOMEM)
+		spec_error_prefix(error, "%s", name);
 	return status;
 }
 

@@ -53,27 +53,32 @@ spec_represented_read(const struct spec_image *image, const char *name,
 	struct spec_represented *represented, struct spec_error *error)
 {
 	unsigned long long lines = 0, coefficients = 0;
+	double low_nm = 0, high_nm = 0;
 	char *text, end;
-	int fits;
+	int has_lines, has_series;
 	enum spec_status status =
 		spec_image_text(image, "spec:representation", &text, error);
 
 	*represented = (struct spec_represented){0};
 	if (status != SPEC_OK || !text)
 		return status;
-	fits = sscanf(text, "fourier %4llu %lf %lf%c", &coefficients, &represented->low_nm,
-		       &represented->high_nm, &end) == 3 ||
-	       sscanf(text, "composite %4llu fourier %4llu %lf %lf%c", &lines,
-		       &coefficients, &represented->low_nm, &represented->high_nm,
-		       &end) == 4 ||
-	       sscanf(text, "composite %4llu%c", &lines, &end) == 1;
-	if (!fits || lines > SPEC_REPRESENTED_MOST_LINES ||
-		coefficients > SPEC_REPRESENTED_MOST_COEFFICIENTS ||
-		(coefficients > 0 &&
-			(coefficients % 2 == 0 || !(represented->low_nm > 0) ||
-				!(represented->high_nm > represented->low_nm) ||
-				!isfinite(represented->high_nm))))
+	has_series = sscanf(text, "fourier %4llu %lf %lf%c", &coefficients, &low_nm,
+			     &high_nm, &end) == 3;
+	has_lines = !has_series;
+	if (!has_series)
+		has_series = sscanf(text, "composite %4llu fourier %4llu %lf %lf%c", &lines,
+				     &coefficients, &low_nm, &high_nm, &end) == 4;
+	if (!has_series)
+		has_lines = sscanf(text, "composite %4llu%c", &lines, &end) == 1;
+	if ((!has_series && !has_lines) || strpbrk(text, "xX") || /* hexadecimal */
+		(has_lines && (lines < 1 || lines > SPEC_REPRESENTED_MOST_LINES)) ||
+		(has_series && (coefficients % 2 == 0 ||
+				       coefficients > SPEC_REPRESENTED_MOST_COEFFICIENTS ||
+				       !(low_nm > 0) || !(high_nm > low_nm) ||
+				       !isfinite(high_nm))))
 		status = fail_attribute(name, text, error);
+	represented->low_nm = low_nm;
+	represented->high_nm = high_nm;
 	represented->lines = lines;
 	represented->coefficients = coefficients;
 	free(text);

@@ -109,6 +109,27 @@ make_wave() {
   [ ! -e out.exr ] && [ ! -e out.hdr ] && [ ! -e out.tif ]
 }
 
+@test "a representation that is none is told" {
+  series=(--size 1x1 --channel S0.a0 --channel S0.a1 --channel S0.b1)
+  spectral a.exr "${series[@]}" --attribute 'spec:representation=fourier 3 400 700' --attribute 'spec:wavelengths=400 500 700'
+  specinfo a.exr >told
+  for text in '' fourier composite sampled 'fourier 0 400 700' 'fourier 2 400 700' 'fourier 1027 400 700' 'fourier -3 400 700' \
+    'fourier 3 nan 700' 'fourier 3 400 inf' 'fourier 3 700 400' 'fourier 3 400 400' 'fourier 3 0 700' 'fourier 3 0x190 700' \
+    'fourier 3 400 700 ' 'composite 0' 'composite 65' 'composite 0 fourier 3 400 700' 'composite 1 fourier 0 400 700'; do
+    spectral a.exr "${series[@]}" --attribute "spec:representation=$text" --attribute 'spec:wavelengths=400 500 700'
+    fails_cleanly specinfo a.exr
+    [[ $stderr = "specinfo: a.exr: its spec:representation is none: '$text'" ]] || complain "$stderr"
+  done
+  spectral a.exr "${series[@]}" --attribute 'spec:representation=fourier 1025 400 700' --attribute 'spec:wavelengths=400 500 700'
+  fails_cleanly specinfo a.exr
+  [[ $stderr = *"lacks the channel 'S0.a2'" ]] || complain "$stderr"
+  for text in '' 400 '500 400' '400 400' '400 nan' 400,500 '0 400'; do
+    spectral a.exr "${series[@]}" --attribute 'spec:representation=fourier 3 400 700' --attribute "spec:wavelengths=$text"
+    fails_cleanly specinfo a.exr
+    [[ $stderr = 'specinfo: a.exr: the attribute spec:wavelengths '* ]] || complain "$stderr"
+  done
+}
+
 @test "a representation that is damaged is told" {
   make_wave
   specconvert --no-history --to fourier:5 wave.exr -o series.exr
@@ -122,7 +143,7 @@ make_wave() {
   [[ $stderr = *"lacks the channel 'S0.b1'" ]] || complain "$stderr"
   LC_ALL=C sed 's/400 410 420/400 420 410/' series.exr >disordered.exr
   fails_cleanly specconvert disordered.exr -o out.exr
-  [[ $stderr = *spec:wavelengths* ]] || complain "$stderr"
+  [[ $stderr = *'disordered.exr: the attribute spec:wavelengths is damaged at '* ]] || complain "$stderr"
   head -c -10 series.exr >short.exr
   fails_cleanly specconvert short.exr -o out.exr
 }
