@@ -423,7 +423,9 @@ convert_layout(struct job *job, struct spec_reader *reader, struct spec_error *e
 	const char *option = job->vectors ? "--vectors" : "--projection";
 
 	if (spec_convert_options_change(&job->change) || spec_kind_is_text(job->kind) ||
-		job->from.from_rgb || job->change.has_to || (job->vectors && job->projects))
+		job->from.from_rgb || job->change.has_to ||
+		(job->vectors &&
+			(job->projects || job->placed.has_place || job->placed.has_time)))
 		return spec_error_set(error, SPEC_EUSAGE,
 			"%s does nothing else on the way: specconvert ... | specconvert %s ...",
 			option, option);

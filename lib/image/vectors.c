@@ -26,6 +26,10 @@ find_channels(struct vectors *vectors, const char *file, struct spec_error *erro
 		if (vectors->from[i] == vectors->input->channels)
 			return spec_error_set(error, SPEC_EUNSUPPORTED,
 				"%s: has no channel %s to make vectors of", file, name[i]);
+		if (vectors->input->channel[vectors->from[i]].sample == SPEC_SAMPLE_UINT)
+			return spec_error_set(error, SPEC_EUNSUPPORTED,
+				"%s: its channel %s holds whole numbers, not codes", file,
+				name[i]);
 	}
 	return SPEC_OK;
 }

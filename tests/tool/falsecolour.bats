@@ -298,6 +298,11 @@ END
   fails_cleanly specconvert --vectors N --scale 2 n.png -o x.exr
   fails_cleanly specconvert --vectors N --projection cross n.png -o x.exr
   fails_cleanly specconvert --vectors N D65 -o x.exr
+  fails_cleanly specconvert --vectors N --place '50N 4E' n.png -o x.exr
+  [[ $stderr = *'--vectors does nothing else on the way'* ]] || complain "$stderr"
+  spectral whole.exr --channel R --channel G --uint B
+  fails_cleanly specconvert --vectors N whole.exr -o x.exr
+  [[ $stderr = *'whole.exr: its channel B holds whole numbers, not codes' ]] || complain "$stderr"
   [ ! -e x.exr ]
   # Towards the eye: (0, 1, 0)
   is '128 255 128' eye.ppm 16 16
