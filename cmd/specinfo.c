@@ -488,6 +488,22 @@ tell_sun(struct job *job, const char *path, struct spec_error *error)
 	return SPEC_OK;
 }
 
+/* A name that nothing has is not called a curve. */
+static enum spec_status
+refuse_curve(const char *path, const char *option, struct spec_error *error)
+{
+	struct spec_curve curve = {0};
+	enum spec_status status = SPEC_OK;
+
+	if (strcmp(path, "-") != 0)
+		status = spec_lookup_curve(path, &curve, error);
+	spec_curve_free(&curve);
+	return status != SPEC_OK
+		       ? status
+		       : spec_error_set(error, SPEC_EUSAGE,
+				 "'%s' is a curve, and %s is for images", path, option);
+}
+
 static enum spec_status
 tell(struct job *job, const char *path, struct spec_error *error)
 {
@@ -497,14 +513,13 @@ tell(struct job *job, const char *path, struct spec_error *error)
 		return tell_sun(job, path, error);
 	curve = spec_kind_is_curve(path);
 	if (curve && job->almanac.own)
-		return spec_error_set(error, SPEC_EUSAGE,
-			"'%s' is a curve, and --sun own is for images", path);
+		return refuse_curve(path, "--sun own", error);
 	if (curve && (job->check || job->probes > 0 || job->patches))
-		return spec_error_set(error, SPEC_EUSAGE,
-			"'%s' is a curve, and %s is for images", path,
+		return refuse_curve(path,
 			job->check     ? "--check"
 			: job->patches ? "--patches"
-				       : "--probe");
+				       : "--probe",
+			error);
 	if (job->almanac.own)
 		return tell_sun(job, path, error);
 	if (job->check)

@@ -429,6 +429,20 @@ END
   done
 }
 
+@test "--probe of a curve, and of what is not there" {
+  spectral a.exr
+  for option in --probe=0,0 --patches=1x1 --check; do
+    fails_cleanly specinfo $option D65
+    [ "$stderr" = "specinfo: 'D65' is a curve, and ${option%=*} is for images" ]
+    fails_cleanly specinfo $option - < <(echo '500 1')
+    [ "$stderr" = "specinfo: '-' is a curve, and ${option%=*} is for images" ]
+    fails_cleanly specinfo $option nothing
+    [[ $stderr = "specinfo: no spectrum 'nothing'"* ]] || complain "$stderr"
+    fails_cleanly specinfo $option b.exr
+    [ "$stderr" = "specinfo: unable to open 'b.exr': No such file or directory" ]
+  done
+}
+
 @test "--probe of Stokes components, of no finite sample, as JSON" {
   spectral a.exr --kind stokes --grid 400:500:100 --pattern nan:1,0,1 --extra A
   specinfo --probe 1,0 a.exr | grep -qx '# columns: wavelength_nm x1y0S0 x1y0S1 x1y0S2 x1y0S3'
