@@ -569,6 +569,11 @@ finish_test(struct spec_comparing *comparing, struct spec_error *error)
 
 	spec_significance_finish(&result->test);
 	result->known_variances = comparing->variances.count > 0;
+	if (result->test.unknown > 0)
+		return spec_error_set(error, SPEC_ERANGE,
+			"the noise of %.0f samples is not known: a channel variance.* is below 0 "
+			"or not finite there",
+			result->test.unknown);
 	least = spec_significance_least(&result->test, sigma);
 	if (!result->known_variances && (double)result->spectral.pixels < least)
 		return spec_error_set(error, SPEC_ERANGE,

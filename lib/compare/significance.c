@@ -40,6 +40,12 @@ spec_significance_free(struct spec_significance *test)
 	*test = (struct spec_significance){0};
 }
 
+static int
+is_variance(float variance)
+{
+	return variance >= 0 && isfinite(variance);
+}
+
 void
 spec_significance_row(size_t bands, size_t width, const float *const *a,
 	const float *const *b, const float *const *variance_a,
@@ -56,8 +62,13 @@ spec_significance_row(size_t bands, size_t width, const float *const *a,
 			if (variance_a)
 				variance =
 					(double)variance_a[band][i] + variance_b[band][i];
-			if (!isfinite(d) || !isfinite(variance) || variance < 0)
+			if (!isfinite(d))
 				continue;
+			if (variance_a && !(is_variance(variance_a[band][i]) &&
+						  is_variance(variance_b[band][i]))) {
+				it->unknown++;
+				continue;
+			}
 			it->difference += d;
 			it->variance += variance;
 			it->pixels++;
@@ -123,6 +134,7 @@ spec_significance_add(
 		test->tile[i].difference += sums[i].difference;
 		test->tile[i].variance += sums[i].variance;
 		test->tile[i].pixels += sums[i].pixels;
+		test->unknown += sums[i].unknown;
 	}
 	if (++test->lines == SPEC_SIGNIFICANCE_TILE)
 		close_tiles(test);

@@ -32,10 +32,13 @@
 
 #define SPEC_SIGNIFICANCE_TILE 16 /* pixels */
 
-/* Sums over pixels of one band: of d, of what d's variance is taken from, and how many. */
+/*
+ * Sums over pixels of one band: of d, of what d's variance is taken from, and how many; and
+ * in how many there is a d, but no variance of it.
+ */
 struct spec_significance_sums {
 	double difference, variance;
-	double pixels;
+	double pixels, unknown;
 };
 
 enum spec_significance_kind {
@@ -56,6 +59,8 @@ struct spec_significance {
 	int lines;    /* in the open row of tiles */
 	int row_y;    /* of its first line */
 	size_t tests; /* statistics */
+	/* Samples with variances that are not finite or below 0: then p says nothing. */
+	double unknown;
 
 	/* The statistic whose bound is least. */
 	double evidence; /* minus the logarithm of that bound */
@@ -77,8 +82,8 @@ void spec_significance_free(struct spec_significance *test);
 /*
  * The sums of one row of count pixels, whose places in the region's row are pixel[count].
  * a, b: one pointer for each band; variance_a, variance_b: the same of the variances of a
- * and of b, or null. Samples that are not finite, and those with a variance that is not
- * finite or below 0, are left out.
+ * and of b, or null. Samples that are not finite are left out, and those with a variance
+ * that is not finite or below 0 are no more than counted.
  */
 void spec_significance_row(size_t bands, size_t width, const float *const *a,
 	const float *const *b, const float *const *variance_a,

@@ -927,6 +927,22 @@ END
   answers 1 specdiff --same-within 3sigma 1.exr 2.exr
 }
 
+# Before they were left out, all of them, and what was left was the same.
+@test "--same-within: variances below 0, and such that are not finite, are refused" {
+  band='--channel S0.500nm --extra variance.S0.500nm'
+  # shellcheck disable=SC2086 # words
+  for value in -1 -9; do
+    spectral $value.exr $band --pattern constant:$value
+    fails_cleanly specdiff --same-within 3sigma -- -1.exr $value.exr
+    [[ $stderr = 'specdiff: the noise of 128 samples is not known'* ]] || complain "$stderr"
+  done
+  # Channel 1 is the variance.
+  # shellcheck disable=SC2086
+  spectral nan.exr $band --pattern nan:2,3,1
+  fails_cleanly specdiff --same-within 3sigma nan.exr nan.exr
+  [[ $stderr = 'specdiff: the noise of 1 samples is not known'* ]] || complain "$stderr"
+}
+
 @test "--same-within: a NaN differs, and too few pixels are told" {
   spectral a.exr
   spectral b.exr --pattern nan:2,3,4
