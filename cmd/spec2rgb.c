@@ -90,8 +90,9 @@ struct job {
 	const struct spec_model *model; /* or null */
 	struct spec_space space;        /* with the transfer function that is used */
 	const char *space_text;         /* or null, as the next */
-	int untold;    /* which space it is cannot be seen in the picture */
-	int unadapted; /* it is light, and no light to adapt from is known */
+	int untold;                   /* which space it is cannot be seen in the picture */
+	int unadapted;                /* it is light, and no light to adapt from is known */
+	unsigned long long overflows; /* samples that --bits 16 made infinite */
 	const struct spec_transfer *transfer;
 	struct spec_transfer gamma; /* where that is a power */
 	struct spec_look look;
@@ -450,6 +451,7 @@ develop(struct job *job, struct spec_reader *reader, const struct spec_rgb *rgb,
 	job->untold = !rgb->raw && !spec_picture_tells_space(&kind, &job->space);
 	status = spec_develop_run(result, reader, rgb, &job->look, file.picture,
 		kind.sample, &job->settings, error);
+	job->overflows = spec_picture_overflows(file.picture);
 	return spec_picture_file_end(&file, status, error);
 }
 
@@ -551,6 +553,8 @@ show_colours(struct cli *cli, struct job *job, struct spec_reader *reader,
 	if (!job->settings.quiet && rgb.outside > NOTICEABLE)
 		cli_warn(cli, "%s: %.1f %% of the luminance lies outside its bands", name,
 			100 * rgb.outside);
+	if (!job->settings.quiet)
+		cli_warn_overflows(cli, job->settings.output, job->overflows);
 	if (!job->settings.quiet && job->unadapted)
 		cli_warn(cli, "%s: light is adapted from a light alone, as by --adapt A:%s",
 			name, job->adapt);

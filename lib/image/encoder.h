@@ -14,9 +14,10 @@ struct spec_picture {
 	struct spec_output *output;
 	const struct spec_space *space; /* or null */
 	size_t width, height;
-	size_t done;               /* rows that were written */
-	struct spec_error failure; /* the first; status SPEC_OK: none */
-	void *state;               /* the format's own */
+	size_t done;                  /* rows that were written */
+	unsigned long long overflows; /* as spec_picture_overflows tells them */
+	struct spec_error failure;    /* the first; status SPEC_OK: none */
+	void *state;                  /* the format's own */
 };
 
 /*

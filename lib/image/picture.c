@@ -253,6 +253,12 @@ spec_picture_finish(struct spec_picture *picture, struct spec_error *error)
 	return hand_over(picture, status, error);
 }
 
+unsigned long long
+spec_picture_overflows(const struct spec_picture *picture)
+{
+	return picture->overflows;
+}
+
 void
 spec_picture_close(struct spec_picture *picture)
 {

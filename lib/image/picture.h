@@ -92,6 +92,9 @@ enum spec_status spec_picture_write(struct spec_picture *picture, const void *ro
 enum spec_status spec_picture_finish(
 	struct spec_picture *picture, struct spec_error *error);
 
+/* How many finite samples were too large for floats of 16 bits, once it is finished. */
+unsigned long long spec_picture_overflows(const struct spec_picture *picture);
+
 /* At any time, finished or not; null is harmless. */
 void spec_picture_close(struct spec_picture *picture);
 

@@ -133,6 +133,10 @@ finish_exr(struct spec_picture *picture, struct spec_error *error)
 {
 	struct state *state = picture->state;
 
+	/* The packer tells the writer what it saw when it closes. */
+	spec_packer_close(state->packer);
+	state->packer = NULL;
+	picture->overflows = spec_writer_overflows(state->writer);
 	return spec_writer_finish(state->writer, error);
 }
 

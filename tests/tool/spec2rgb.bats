@@ -1261,6 +1261,20 @@ close() {
   exrheader x.exr | { run ! grep -e spec:integration -e whiteLuminance; }
 }
 
+@test "samples beyond the floats of 16 bits are counted" {
+  # 72983 cd/m^2, of which all three components are above 65504.
+  spectral light.exr --size 2x1 --grid 360:830:5 --pattern constant:1
+  spec2rgb --absolute --bits 16 light.exr -o x.exr 2>said
+  [ "$(<said)" = 'spec2rgb: warning: x.exr: 6 samples are too large for 16 bits and became infinite' ]
+  layers --print 1,0 x.exr | grep -q '^R inf'
+  spec2rgb -q --absolute --bits 16 light.exr -o x.exr 2>said
+  [ ! -s said ]
+  spec2rgb --absolute light.exr -o x.exr 2>said
+  [ ! -s said ]
+  spec2rgb --bits 16 light.exr -o x.exr 2>said
+  [ ! -s said ]
+}
+
 @test "rules and scales that are refused" {
   spectral light.exr --grid 400:700:10
   spectral five.exr --kind T --grid 400:700:5
