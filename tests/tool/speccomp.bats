@@ -93,7 +93,7 @@ END
 @test "values that are none are refused" {
   ramps
   for option in --op= --op=Add --op=merge --kind=S1 --kind= --weight= --weight=1 '--weight=1,' --weight=,1 --weight=0,1 \
-    --weight=-1,1 --weight=1,x --weight=nan,1 --threads=0 --compression=dwaa --limit=x=1; do
+    --weight=-1,1 --weight=1,x --weight=nan,1 --weight=0.9e-30,1 --weight=1,1.1e30 --threads=0 --compression=dwaa --limit=x=1; do
     fails_cleanly speccomp "$option" --op mean a.exr b.exr -o x.exr
   done
   no_leftovers . a.exr b.exr c.exr
@@ -107,8 +107,10 @@ END
   same want.exr x.exr
   combine --op over "${many[@]:0:2}" -o y.exr 2>err || true
   grep -q 'has no alpha (A)' err
-  combine --expr 'image64 * 64' "${many[@]}" -o x.exr
-  same want.exr x.exr
+  for last in image64 w image23; do
+    combine --expr "$last * 64" "${many[@]}" -o x.exr
+    same want.exr x.exr
+  done
   fails_cleanly speccomp --op add "${many[@]}" a.exr -o x.exr
   [[ $stderr = *"64 images at most"* ]] || complain "$stderr"
 }
@@ -135,6 +137,8 @@ END
   combine --op mean --weight 1,3 zero.exr a.exr -o x.exr
   specconvert --scale 0.75 a.exr -o want.exr
   same want.exr x.exr
+  combine --op mean --weight 1e-30,1e30 zero.exr a.exr -o x.exr
+  same a.exr x.exr
 }
 
 @test "--op multiply and divide: light by reflectance, and a ratio" {
@@ -214,6 +218,16 @@ END
   done
   combine --op lerp --mask many.exr:Q a.exr b.exr -o x.exr
   pixel_holds a.exr x.exr 3,1 'is("S0.500,000000nm", 0.25 + 0.25 * 0.75)'
+  # A channel comes before a file of that name; of several channels A, then Y.
+  cp many.exr Z
+  combine --op lerp --mask Z a.exr b.exr -o x.exr
+  pixel_holds a.exr x.exr 0,0 'is("S0.500,000000nm", 0.75 * 0.25 + 0.25 * 0.5)'
+  spectral both.exr --channel Q --channel Y --channel A --size 4x2
+  combine --op lerp --mask both.exr a.exr b.exr -o x.exr
+  pixel_holds a.exr x.exr 3,1 'is("S0.500,000000nm", 0.25 + 0.25 * (4 * 0.001 + 0.01 + 0.2))'
+  spectral both.exr --channel Q --channel Y --size 4x2
+  combine --op lerp --mask both.exr a.exr b.exr -o x.exr
+  pixel_holds a.exr x.exr 3,1 'is("S0.500,000000nm", 0.25 + 0.25 * (4 * 0.001 + 0.01 + 0.1))'
   combine --op lerp --mask - a.exr b.exr -o y.exr <mask.exr
   combine --op lerp --mask <(cat mask.exr) a.exr b.exr -o z.exr
   cmp y.exr z.exr
