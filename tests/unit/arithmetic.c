@@ -759,6 +759,10 @@ test_mismatches(void **state)
 	reflectance();
 	bins(reflectance(), 350);
 	refused_as(plan(SPEC_ARITHMETIC_MULTIPLY), "b.exr has point samples, c.exr bins");
+	reflectance();
+	bins(light(), 350);
+	bins(reflectance(), 350);
+	refused_as(plan(SPEC_ARITHMETIC_MULTIPLY), "a.exr has point samples, c.exr bins");
 	light();
 	bins(light(), 350);
 	refused_as(plan(SPEC_ARITHMETIC_DIVIDE), "a.exr has point samples, b.exr bins");
