@@ -235,12 +235,12 @@ END
 @test "an unknown key of ENVI's is written again, known ones anew" {
   spectral a.exr --size 2x2 --grid 400:500:100
   specconvert --no-history a.exr -o a.hdr
-  printf 'map info = {UTM, 1,\n 2}\nbbl = {1, 0}\ndata ignore value = 77\n; a comment\n' >>a.hdr
+  printf 'map info = {UTM, 1,\n 2}\nbbl = {1, 0}\nfwhm = {9, 9}\nband names = {one, two}\ndata ignore value = 77\n; a comment\n' >>a.hdr
   specconvert a.hdr -o b.exr
   specconvert --band 400 b.exr -o c.hdr
   grep -A 1 -x 'map info = {UTM, 1,' c.hdr | grep -qx ' 2}'
   grep -qx 'bands = 1' c.hdr
-  [ "$(grep -cE 'bbl|ignore|comment' c.hdr)" = 0 ] || complain "$(cat c.hdr)"
+  [ "$(grep -cE 'bbl|fwhm|one, two|ignore|comment' c.hdr)" = 0 ] || complain "$(cat c.hdr)"
   [ "$(grep -c '^samples' c.hdr)" = 1 ]
 }
 

@@ -541,6 +541,13 @@ last_uints() {
   no_leftovers . a.exr
 }
 
+@test "the text of polarised light is that of S0, of reradiation the diagonal" {
+  spectral stokes.exr --size 1x1 --kind stokes --grid 500:500:1
+  has_numbers stokes.exr '500 0.001'
+  spectral glow.exr --size 1x1 --channel T.400nm --channel T.500nm --channel T.400nm.500nm
+  has_numbers glow.exr '400 0.001' '500 0.101'
+}
+
 @test "a text of what is not finite is refused, and its place named" {
   for pattern in nan:2,3,4 inf:2,3,4; do
     spectral a.exr --pattern $pattern

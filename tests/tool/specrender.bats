@@ -659,7 +659,9 @@ wrong_at() {
 @test "a picture of which one line is larger than the limit is refused before memory is taken" {
   scene a.pbrt WorldBegin
   fails_cleanly specrender --limit memory=10M --size 100000x1 a.pbrt -o b.exr # 81 bands: 32 MB
-  [[ $stderr = *'--limit memory='* ]] || complain "$stderr"
+  [[ $stderr = *'more than the limit of 10485760 (--limit memory='* ]] || complain "$stderr"
+  fails_cleanly specrender --grid 1:2000:1 --size 1048576x1 a.pbrt -o b.exr
+  [[ $stderr = *'more than the limit of 4294967296 (--limit memory='* ]] || complain "$stderr"
   no_leftovers . a.pbrt
 }
 

@@ -187,7 +187,11 @@ wavelengths_have_units(void **state)
 		{"Wavenumber", "20000, 25000", 400, 500},
 		{"GHz", "599584.916, 749481.145", 400, 500},
 		{"MHz", "599584916, 749481145", 400, 500},
-		{"Unknown", "0.4, 0.5", 400, 500}, {"", "400,\n  500", 400, 500}};
+		{"Centimeters", "4e-5, 5e-5", 400, 500}, {"Microns", ".4 .5", 400, 500},
+		{"mm", "4e-4, 5e-4", 400, 500}, {"m", "4e-7, 5e-7", 400, 500},
+		{"nm", "400, 500", 400, 500}, {"Unknown", "0.4, 0.5", 400, 500},
+		{"", "400,\n  500", 400, 500}, {"", "99, 99.5", 99000, 99500},
+		{"", "100, 101", 100, 101}};
 
 	(void)state;
 	save_zeros();
@@ -248,6 +252,13 @@ kinds_are_found_in_the_header(void **state)
 		{"band names = {Reflectance 1, Reflectance 2}", SPEC_ROLE_REFLECTIVE},
 		{"reflectance scale factor = 10000", SPEC_ROLE_REFLECTIVE},
 		{"description = {reflectance from radiance}\ndata units = radiance",
+			SPEC_ROLE_EMISSIVE},
+		/* The first of data units, z plot titles, description, band names. */
+		{"z plot titles = {x, reflectance}\ndata units = radiance",
+			SPEC_ROLE_EMISSIVE},
+		{"description = {reflectance}\nz plot titles = {x, radiance}",
+			SPEC_ROLE_EMISSIVE},
+		{"band names = {Reflectance 1, Reflectance 2}\ndescription = {radiance}",
 			SPEC_ROLE_EMISSIVE}};
 
 	(void)state;
