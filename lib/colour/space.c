@@ -2,6 +2,7 @@
 
 #include <math.h>
 #include <string.h>
+#include <strings.h>
 
 #include "base/number.h"
 
@@ -103,7 +104,7 @@ spec_space_find(const char *name, struct spec_error *error)
 	size_t i;
 
 	for (i = 0; i < COUNT(spaces); i++)
-		if (strcmp(spaces[i].name, name) == 0)
+		if (strcasecmp(spaces[i].name, name) == 0)
 			return &spaces[i];
 	spec_error_set(error, SPEC_EUSAGE,
 		"unknown colour space '%.100s': expected srgb, p3, dci-p3, rec709, rec2020, "
@@ -193,7 +194,6 @@ spec_space_to_xyz(const struct spec_space *space, double m[9], struct spec_error
 {
 	const double *primary[3] = {space->red_xy, space->green_xy, space->blue_xy};
 	double column[9], inverse[9], white[3], amount[3];
-	enum spec_status status;
 	int i, r;
 
 	for (i = 0; i < 3; i++) {
@@ -201,9 +201,9 @@ spec_space_to_xyz(const struct spec_space *space, double m[9], struct spec_error
 		column[3 + i] = primary[i][1];
 		column[6 + i] = 1 - primary[i][0] - primary[i][1];
 	}
-	status = spec_matrix_invert(column, inverse, error);
-	if (status != SPEC_OK)
-		return spec_error_prefix(error, "primaries of %s", space->title), status;
+	if (spec_matrix_invert(column, inverse, NULL) != SPEC_OK)
+		return spec_error_set(error, SPEC_ERANGE,
+			"the primaries of %s lie on one line", space->title);
 	spec_white_xyz(space->white_xy, white);
 	spec_matrix_apply(inverse, white, amount);
 	if (!isfinite(amount[0] + amount[1] + amount[2]))
@@ -220,7 +220,11 @@ spec_space_from_xyz(const struct spec_space *space, double m[9], struct spec_err
 {
 	enum spec_status status = spec_space_to_xyz(space, m, error);
 
-	return status == SPEC_OK ? spec_matrix_invert(m, m, error) : status;
+	if (status == SPEC_OK && spec_matrix_invert(m, m, NULL) != SPEC_OK)
+		status = spec_error_set(error, SPEC_ERANGE,
+			"the white of %s lies on a line with two of its primaries",
+			space->title);
+	return status;
 }
 
 enum spec_status

@@ -39,7 +39,10 @@ struct spec_white {
 const struct spec_space *spec_space_at(size_t index);
 const struct spec_white *spec_white_at(size_t index);
 
-/* The one of that name, or null with SPEC_EUSAGE and the known names in the message. */
+/*
+ * The one of that name, of a space in any case, or null with SPEC_EUSAGE and the known names
+ * in the message.
+ */
 const struct spec_space *spec_space_find(const char *name, struct spec_error *error);
 const struct spec_white *spec_white_find(const char *name, struct spec_error *error);
 

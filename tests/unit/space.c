@@ -101,6 +101,16 @@ test_parse(void **state)
 			fail_msg("'%s' is taken", bad[i]);
 		assert_true(error.message[0] != 0);
 	}
+	assert_int_equal(
+		spec_space_parse(".6,.3 .6,.3 .15,.06 .3,.3", &space, &error), SPEC_EUSAGE);
+	assert_contains(error.message, "primaries of a custom RGB space lie on one line");
+	assert_int_equal(
+		spec_space_parse("0,0 1,0 0,1 .5,.5", &space, &error), SPEC_EUSAGE);
+	assert_contains(error.message, "space lies on a line with two of its primaries");
+	/* As their standards write them. */
+	assert_int_equal(spec_space_parse("sRGB", &space, &error), SPEC_OK);
+	assert_string_equal(space.name, "srgb");
+	assert_ptr_equal(spec_space_find("ACEScg", NULL), spec_space_find("acescg", NULL));
 }
 
 /* ASTM E308's whites, as in test_adaptation_bradford. */
