@@ -342,6 +342,31 @@ many() {
   [[ $stderr = *'16 x 8'*127*'--limit pixels='* ]] || complain "$stderr"
 }
 
+@test "without --limit, 2^30 pixels and 4 GiB of buffers are the most" {
+  spectral a.exr --compression none
+  set_window a.exr dataWindow 0 0 32767 32768
+  refused a.exr
+  [[ $stderr = *'32768 x 32769'*1073741824*'--limit pixels='* ]] || complain "$stderr"
+  set_window a.exr dataWindow 0 0 32767 32767
+  refused a.exr
+  [[ $stderr != *'--limit pixels='* ]] || complain "$stderr"
+  set_window a.exr dataWindow 0 0 1073741822 0
+  refused a.exr
+  [[ $stderr = *4294967296*'--limit memory='* ]] || complain "$stderr"
+}
+
+@test "without --limit, 16384 attributes are the most" {
+  spectral a.exr --compression none --size 1x1 --grid 500:500:1
+  end=$(($(table_at a.exr 1 4) - 1))
+  {
+    head -c $end a.exr
+    awk 'BEGIN { for (i = 0; i < 16385; i++) printf "a%05d%cstring%c%c%c%c%c", i, 0, 0, 0, 0, 0, 0 }'
+    tail -c +$((end + 1)) a.exr
+  } >many.exr
+  fails_cleanly specconvert many.exr -o out.exr
+  [[ $stderr = *16384*'--limit attributes='* ]] || complain "$stderr"
+}
+
 @test "more channels than the limit" {
   spectral a.exr
   refused a.exr --limit channels=15
