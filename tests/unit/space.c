@@ -75,7 +75,7 @@ test_matrices(void **state)
 static void
 test_parse(void **state)
 {
-	static const char *const bad[] = {"", "srgbb", "SRGB", ",", "1,2",
+	static const char *const bad[] = {"", "srgbb", "s-rgb", ",", "1,2",
 		"1,2,3,4,5,6,7,8", ".64,.33 .3,.6 .15,.06",
 		".64,.33 .3,.6 .15,.06 .3127,.329 .1,.1", ".64,.33 .3,.6 .15,.06 .3127,",
 		".64,.33 .3,.6 .15,.06 .3127,x", ".64,.33 .3,.6 .15,.06 .3127,nan",
