@@ -412,24 +412,14 @@ warn_nonfinite(const struct cli *cli, const struct job *job, const char *name,
 }
 
 static enum spec_status
-choose_kind(const struct job *job, struct spec_picture_kind *kind, struct spec_error *error)
-{
-	char wanted[32];
-
-	/* A format is chosen by a suffix; --format is one without a name before it. */
-	snprintf(wanted, sizeof wanted, "picture.%s", job->format ? job->format : "");
-	return spec_picture_choose(
-		job->format ? wanted : job->settings.output, job->bits, kind, error);
-}
-
-static enum spec_status
 develop(struct job *job, struct spec_reader *reader, const struct spec_rgb *rgb,
 	struct spec_develop *result, struct spec_error *error)
 {
 	const struct spec_window *window = &spec_reader_image(reader)->data;
 	struct spec_picture_kind kind;
 	struct spec_picture_file file;
-	enum spec_status status = choose_kind(job, &kind, error);
+	enum spec_status status = spec_picture_choose(
+		job->settings.output, job->format, job->bits, &kind, error);
 
 	if (status == SPEC_OK && job->transfer && job->transfer != &spec_transfer_linear &&
 		kind.sample == SPEC_PICTURE_FLOAT)
@@ -463,7 +453,8 @@ paint(struct job *job, struct spec_reader *reader, struct spec_falsecolour *resu
 	struct spec_picture_kind kind;
 	struct spec_picture_file file;
 	size_t width, height;
-	enum spec_status status = choose_kind(job, &kind, error);
+	enum spec_status status = spec_picture_choose(
+		job->settings.output, job->format, job->bits, &kind, error);
 
 	spec_falsecolour_size(painted, spec_reader_image(reader), &width, &height);
 	/* Components of vectors are no light. */

@@ -112,7 +112,7 @@ save(const char *path, const struct spec_canvas *canvas, struct spec_error *erro
 {
 	struct spec_picture_kind kind;
 	struct spec_picture_file file;
-	enum spec_status status = spec_picture_choose(path, 8, &kind, error);
+	enum spec_status status = spec_picture_choose(path, NULL, 8, &kind, error);
 
 	if (status == SPEC_OK)
 		status = spec_picture_file_open(&file, path, &kind, canvas->width,

@@ -1,6 +1,7 @@
 #include "image/picture.h"
 
 #include <ctype.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -46,23 +47,25 @@ find_format(const char *suffix)
 	return &other;
 }
 
-/* The last suffix of path, in lower case. */
+/* The format's name, or else the last suffix of path, in lower case. */
 static enum spec_status
-take_suffix(const char *path, char *suffix, size_t room, struct spec_error *error)
+take_suffix(const char *path, const char *format, char *suffix, size_t room,
+	struct spec_error *error)
 {
-	const char *dot = spec_path_suffix(path);
-	size_t length = strlen(dot);
+	const char *dot = format ? format : spec_path_suffix(path),
+		   *name = format || !*dot ? dot : dot + 1;
+	size_t length = (size_t)snprintf(suffix, room, "%s", name);
 
-	if (length <= 1)
+	if (length == 0)
 		return spec_error_set(error, SPEC_EUSAGE,
 			"unable to write '%s': no suffix that names a picture format, such "
 			"as .png",
 			path);
-	if (length > room)
+	if (length >= room)
 		return spec_error_set(error, SPEC_EUNSUPPORTED,
-			"unable to write '%s': no picture format for '%s'", path, dot);
-	for (size_t i = 0; i < length; i++)
-		suffix[i] = (char)tolower((unsigned char)dot[1 + i]);
+			"unable to write '%s': no picture format for '.%s'", path, name);
+	for (; *suffix; suffix++)
+		*suffix = (char)tolower((unsigned char)*suffix);
 	return SPEC_OK;
 }
 
@@ -92,16 +95,17 @@ settle_bits(const struct format *format, const char *path, int bits,
 }
 
 enum spec_status
-spec_picture_choose(const char *path, int bits, struct spec_picture_kind *kind,
-	struct spec_error *error)
+spec_picture_choose(const char *path, const char *format, int bits,
+	struct spec_picture_kind *kind, struct spec_error *error)
 {
-	enum spec_status status = SPEC_OK;
+	enum spec_status status;
 
-	*kind = (struct spec_picture_kind){.suffix = "png"};
-	if (strcmp(path, "-") == 0)
+	*kind = (struct spec_picture_kind){0};
+	if (strcmp(path, "-") == 0) {
 		path = "<stdout>";
-	else
-		status = take_suffix(path, kind->suffix, sizeof kind->suffix, error);
+		format = format ? format : "png";
+	}
+	status = take_suffix(path, format, kind->suffix, sizeof kind->suffix, error);
 	if (status == SPEC_OK && find_format(kind->suffix) == &other)
 		status = spec_plugin_knows(kind->suffix, path, error);
 	if (status == SPEC_OK)

@@ -46,14 +46,15 @@ struct spec_picture_kind {
 };
 
 /*
- * The format that the suffix of path asks for, in upper or lower case; "-" is PNG.
+ * The format of a name, such as png, or, where that is null, the one that the suffix of path
+ * asks for, in upper or lower case; "-" is PNG then.
  * bits: per sample, 8, 16 or 32, or 0: the format's usual. PNG and PPM (.ppm, .pnm)
  * hold 8 (usual) or 16; EXR floats of 32 (usual) or 16; TIFF 8 (usual), 16, or floats
  * of 32; HDR floats (32); every other format 8.
  * Errors (SPEC_EUSAGE): no suffix, another number of bits; (SPEC_EUNSUPPORTED): no
  * format of that suffix, bits that it cannot hold, the plugin cannot be loaded.
  */
-enum spec_status spec_picture_choose(const char *path, int bits,
+enum spec_status spec_picture_choose(const char *path, const char *format, int bits,
 	struct spec_picture_kind *kind, struct spec_error *error);
 
 /*

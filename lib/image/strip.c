@@ -125,7 +125,7 @@ spec_strip_save(const char *path, const struct spec_curve *curve,
 	struct spec_picture_kind kind;
 	double divisor[CHANNELS];
 	void *row = NULL;
-	enum spec_status status = spec_picture_choose(path, 0, &kind, error);
+	enum spec_status status = spec_picture_choose(path, NULL, 0, &kind, error);
 
 	if (status == SPEC_OK && curve->columns != 1 && curve->columns != CHANNELS)
 		status = spec_error_set(error, SPEC_ERANGE,

@@ -697,6 +697,8 @@ END
   spec2rgb a.exr -o a.ppm
   spec2rgb -f ppm a.exr | cmp - a.ppm
   spec2rgb --format ppm a.exr -o /dev/stdout | cmp - a.ppm
+  run -2 spec2rgb --format nothing a.exr -o b.png
+  [ "$output" = "spec2rgb: unable to write 'b.png': no picture format for '.nothing'" ]
   fails_cleanly spec2rgb -f nothing a.exr -o b
 }
 

@@ -86,7 +86,7 @@ write_picture(struct fixture *fixture, const char *name, int bits, const char *s
 	size_t y = 0;
 
 	snprintf(fixture->path, sizeof fixture->path, "%s/%s", fixture->folder, name);
-	if (spec_picture_choose(fixture->path, bits, &kind, &error) != SPEC_OK)
+	if (spec_picture_choose(fixture->path, NULL, bits, &kind, &error) != SPEC_OK)
 		fail_msg("%s", error.message);
 	assert_int_equal(spec_output_open(&output, fixture->path, &error), SPEC_OK);
 	if (spec_picture_open(&picture, &kind, &output, WIDTH, HEIGHT,
@@ -259,7 +259,8 @@ test_ppm_large(void **state)
 	for (size_t i = 0; i < samples; i++)
 		words[i] = (uint16_t)(i * 31 + i / 1000);
 	snprintf(fixture->path, sizeof fixture->path, "%s/a.ppm", fixture->folder);
-	assert_int_equal(spec_picture_choose(fixture->path, 16, &kind, NULL), SPEC_OK);
+	assert_int_equal(
+		spec_picture_choose(fixture->path, NULL, 16, &kind, NULL), SPEC_OK);
 	assert_int_equal(spec_output_open(&output, fixture->path, NULL), SPEC_OK);
 	assert_int_equal(
 		spec_picture_open(&picture, &kind, &output, SIDE, SIDE, NULL, NULL),
@@ -492,11 +493,11 @@ check_choice(const char *path, int bits, enum spec_status status, const char *me
 	struct spec_error error = {0};
 	struct spec_picture_kind kind;
 
-	assert_int_equal(spec_picture_choose(path, bits, &kind, &error), status);
+	assert_int_equal(spec_picture_choose(path, NULL, bits, &kind, &error), status);
 	assert_int_equal(error.status, status);
 	if (!strstr(error.message, message))
 		fail_msg("%s: \"%s\" does not say \"%s\"", path, error.message, message);
-	assert_int_equal(spec_picture_choose(path, bits, &kind, NULL), status);
+	assert_int_equal(spec_picture_choose(path, NULL, bits, &kind, NULL), status);
 }
 
 static void
@@ -505,14 +506,18 @@ test_choose(void **state)
 	struct spec_picture_kind kind;
 
 	(void)state;
-	assert_int_equal(spec_picture_choose("-", 0, &kind, NULL), SPEC_OK);
+	assert_int_equal(spec_picture_choose("-", NULL, 0, &kind, NULL), SPEC_OK);
 	assert_int_equal(kind.format, SPEC_PICTURE_PNG);
 	assert_int_equal(kind.sample, SPEC_PICTURE_U8);
-	assert_int_equal(spec_picture_choose("-", 16, &kind, NULL), SPEC_OK);
+	assert_int_equal(spec_picture_choose("-", NULL, 16, &kind, NULL), SPEC_OK);
 	assert_int_equal(kind.sample, SPEC_PICTURE_U16);
-	assert_int_equal(spec_picture_choose("x.exr", 0, &kind, NULL), SPEC_OK);
+	assert_int_equal(spec_picture_choose("-", "PPM", 0, &kind, NULL), SPEC_OK);
+	assert_int_equal(kind.format, SPEC_PICTURE_PPM);
+	assert_int_equal(spec_picture_choose("x.exr", "ppm", 0, &kind, NULL), SPEC_OK);
+	assert_int_equal(kind.format, SPEC_PICTURE_PPM);
+	assert_int_equal(spec_picture_choose("x.exr", NULL, 0, &kind, NULL), SPEC_OK);
 	assert_int_equal(kind.sample, SPEC_PICTURE_FLOAT);
-	assert_int_equal(spec_picture_choose("x.hdr", 0, &kind, NULL), SPEC_OK);
+	assert_int_equal(spec_picture_choose("x.hdr", NULL, 0, &kind, NULL), SPEC_OK);
 	assert_int_equal(kind.sample, SPEC_PICTURE_FLOAT);
 	check_choice("x", 0, SPEC_EUSAGE, "unable to write 'x': no suffix");
 	check_choice("a.b/x", 0, SPEC_EUSAGE, "no suffix");
@@ -543,7 +548,7 @@ check_rows(struct fixture *fixture, const char *name)
 	struct spec_output output;
 
 	snprintf(fixture->path, sizeof fixture->path, "%s/%s", fixture->folder, name);
-	assert_int_equal(spec_picture_choose(fixture->path, 0, &kind, NULL), SPEC_OK);
+	assert_int_equal(spec_picture_choose(fixture->path, NULL, 0, &kind, NULL), SPEC_OK);
 	assert_int_equal(spec_output_open(&output, fixture->path, NULL), SPEC_OK);
 	assert_int_equal(
 		spec_picture_open(&picture, &kind, &output, WIDTH, HEIGHT, NULL, NULL),
@@ -588,7 +593,7 @@ check_full(struct fixture *fixture, const char *name)
 	struct spec_output output;
 	enum spec_status status;
 
-	assert_int_equal(spec_picture_choose(name, 0, &kind, NULL), SPEC_OK);
+	assert_int_equal(spec_picture_choose(name, NULL, 0, &kind, NULL), SPEC_OK);
 	assert_int_equal(spec_output_open(&output, "/dev/full", NULL), SPEC_OK);
 	status = spec_picture_open(&picture, &kind, &output, WIDTH, HEIGHT, NULL, &error);
 	if (status == SPEC_OK)
@@ -623,7 +628,7 @@ test_sizes(void **state)
 	struct spec_output output;
 
 	(void)state;
-	assert_int_equal(spec_picture_choose("-", 0, &kind, NULL), SPEC_OK);
+	assert_int_equal(spec_picture_choose("-", NULL, 0, &kind, NULL), SPEC_OK);
 	assert_int_equal(spec_output_open(&output, "/dev/null", NULL), SPEC_OK);
 	for (size_t i = 0; i < COUNT(sizes); i++) {
 		assert_int_equal(spec_picture_open(&picture, &kind, &output, sizes[i][0],
@@ -634,7 +639,8 @@ test_sizes(void **state)
 	}
 	/* libjpeg would end the program, gif would wrap around. */
 	for (size_t i = 0; i < 2; i++) {
-		assert_int_equal(spec_picture_choose(i ? "a.gif" : "a.jpg", 0, &kind, NULL),
+		assert_int_equal(
+			spec_picture_choose(i ? "a.gif" : "a.jpg", NULL, 0, &kind, NULL),
 			SPEC_OK);
 		assert_int_equal(
 			spec_picture_open(&picture, &kind, &output, 65536, 1, NULL, &error),
@@ -642,7 +648,7 @@ test_sizes(void **state)
 		assert_non_null(
 			strstr(error.message, "65536 x 1 pixels are too many for ."));
 	}
-	assert_int_equal(spec_picture_choose("-", 0, &kind, NULL), SPEC_OK);
+	assert_int_equal(spec_picture_choose("-", NULL, 0, &kind, NULL), SPEC_OK);
 	/* libpng's own limit, a million, does not stand in the way. */
 	assert_int_equal(
 		spec_picture_open(&picture, &kind, &output, 2000000, 1, NULL, &error),
@@ -678,7 +684,7 @@ choose(const char *path)
 {
 	struct spec_error error = {0};
 	struct spec_picture_kind kind;
-	enum spec_status status = spec_picture_choose(path, 0, &kind, &error);
+	enum spec_status status = spec_picture_choose(path, NULL, 0, &kind, &error);
 
 	printf("%s\n", error.message);
 	return (int)status;
