@@ -123,25 +123,35 @@ spec_picture_sample_bytes(enum spec_picture_sample sample)
 	return sample == SPEC_PICTURE_U8 ? 1 : sample == SPEC_PICTURE_U16 ? 2 : 4;
 }
 
+static int
+is_at(const double xy[2], const double other_xy[2])
+{
+	return xy[0] == other_xy[0] && xy[1] == other_xy[1];
+}
+
+/* What readers take for granted: of whole numbers sRGB, of floats its primaries. */
+static int
+is_usual(const struct spec_picture_kind *kind, const struct spec_space *space)
+{
+	const struct spec_space *usual = spec_space_find("srgb", NULL);
+
+	return is_at(space->red_xy, usual->red_xy) &&
+	       is_at(space->green_xy, usual->green_xy) &&
+	       is_at(space->blue_xy, usual->blue_xy) &&
+	       is_at(space->white_xy, usual->white_xy) &&
+	       (kind->sample == SPEC_PICTURE_FLOAT || space->transfer == usual->transfer);
+}
+
 int
 spec_picture_tells_space(
 	const struct spec_picture_kind *kind, const struct spec_space *space)
 {
-	const struct spec_space *usual = spec_space_find("srgb", NULL);
-	size_t i = 0;
-
-	while (i < COUNT(with_profile) && strcmp(kind->suffix, with_profile[i]) != 0)
-		i++;
-	return kind->format == SPEC_PICTURE_PNG || kind->format == SPEC_PICTURE_EXR ||
-	       i < COUNT(with_profile) ||
-	       (memcmp(space->red_xy, usual->red_xy, sizeof usual->red_xy) == 0 &&
-		       memcmp(space->green_xy, usual->green_xy, sizeof usual->green_xy) ==
-			       0 &&
-		       memcmp(space->blue_xy, usual->blue_xy, sizeof usual->blue_xy) == 0 &&
-		       memcmp(space->white_xy, usual->white_xy, sizeof usual->white_xy) ==
-			       0 &&
-		       (kind->sample == SPEC_PICTURE_FLOAT ||
-			       space->transfer == usual->transfer));
+	if (kind->format == SPEC_PICTURE_PNG || kind->format == SPEC_PICTURE_EXR)
+		return 1;
+	for (size_t i = 0; i < COUNT(with_profile); i++)
+		if (strcmp(kind->suffix, with_profile[i]) == 0)
+			return 1;
+	return is_usual(kind, space);
 }
 
 static const struct spec_picture_encoder *
