@@ -26,7 +26,7 @@ static const struct cli_option options[] = {
 	{0, "same-within", "Nsigma",
 		"test whether two renders differ by more than their noise; "
 		"a false alarm is as rare as N sigma of a normal noise"},
-	{0, "bands", NULL, "print rmse, mae and max of each band"},
+	{0, "bands", NULL, "print rmse, mae, max, relative and psnr of each band"},
 	{0, "json", NULL, "print JSON"},
 	{0, "resample", NULL, "compare different grids over their overlap"},
 	{0, "crop", "X0,Y0,X1,Y1",

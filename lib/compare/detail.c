@@ -401,6 +401,14 @@ spec_detail_relative(const struct spec_detail_band *band, size_t count)
 }
 
 double
+spec_detail_psnr(const struct spec_detail_band *band, size_t count, double peak)
+{
+	double rmse = spec_detail_rmse(band, count);
+
+	return rmse == 0 ? INFINITY : 20 * log10(peak / rmse);
+}
+
+double
 spec_detail_energy(const struct spec_detail_band *band, const double *weight, size_t count)
 {
 	struct spec_detail_band all = join(band, count);

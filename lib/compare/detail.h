@@ -72,6 +72,12 @@ double spec_detail_max(const struct spec_detail_band *band, size_t count);
 double spec_detail_relative(const struct spec_detail_band *band, size_t count);
 
 /*
+ * Peak signal-to-noise ratio 20 log10(peak / rmse) [dB]; infinite where rmse is 0, minus
+ * infinity where peak is and rmse is not, and where samples differ that are not finite.
+ */
+double spec_detail_psnr(const struct spec_detail_band *band, size_t count, double peak);
+
+/*
  * (B - A) / A of the integrals over wavelengths and pixels: sums of the bands with
  * weight[count], such as their widths. 0 where both are 0, infinite where A alone is.
  */

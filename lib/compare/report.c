@@ -150,6 +150,12 @@ print_exact(FILE *stream, const struct spec_report *report)
 	fprintf(stream, ": %.9g (0x%08x) and %.9g (0x%08x)\n", a, exact->a, b, exact->b);
 }
 
+static int
+least(int a, int b)
+{
+	return a < b ? a : b;
+}
+
 /* The statistic that says most. */
 static void
 print_statistic(FILE *stream, const struct spec_report *report)
@@ -164,11 +170,13 @@ print_statistic(FILE *stream, const struct spec_report *report)
 		fprintf(stream, ", chi-square of its tiles %.3g of 1 each\n", test->value);
 		return;
 	}
-	if (test->kind == SPEC_SIGNIFICANCE_ONE_TILE)
-		fprintf(stream, " at %zu,%d to %zu,%d", test->x + (size_t)result->region.x0,
-			test->y + result->region.y0,
-			test->x + (size_t)result->region.x0 + SPEC_SIGNIFICANCE_TILE,
-			test->y + result->region.y0 + SPEC_SIGNIFICANCE_TILE);
+	if (test->kind == SPEC_SIGNIFICANCE_ONE_TILE) {
+		int x = (int)test->x + result->region.x0, y = test->y + result->region.y0;
+
+		fprintf(stream, " at %d,%d to %d,%d", x, y,
+			least(x + SPEC_SIGNIFICANCE_TILE, result->region.x1),
+			least(y + SPEC_SIGNIFICANCE_TILE, result->region.y1));
+	}
 	fprintf(stream, ", z %.3g, mean difference %.3g\n", test->value, test->mean);
 }
 
@@ -183,6 +191,14 @@ print_test(FILE *stream, const struct spec_report *report)
 						: "the differences");
 	if (report->result->test.tests > 0)
 		print_statistic(stream, report);
+	else
+		fputc('\n', stream);
+}
+
+double
+spec_report_peak(const struct spec_report *report)
+{
+	return report->peak > 0 ? report->peak : (double)report->result->spectral.largest_a;
 }
 
 static void
@@ -190,7 +206,8 @@ print_bands(FILE *stream, const struct spec_report *report)
 {
 	const struct spec_images *result = report->result;
 
-	fprintf(stream, "%-20s %12s %12s %12s\n", "band", "rmse", "mae", "max");
+	fprintf(stream, "%-20s %12s %12s %12s %12s %12s\n", "band", "rmse", "mae", "max",
+		"relative", "psnr");
 	for (size_t i = 0; i < result->bands; i++) {
 		const struct spec_detail_band *band = &result->band[i];
 		char name[256];
@@ -198,9 +215,10 @@ print_bands(FILE *stream, const struct spec_report *report)
 		snprintf(name, sizeof name, "%s",
 			report->image[result->grid]->channel[result->band_channel[i]].name);
 		spec_error_plain(name);
-		fprintf(stream, "%-20s %12.6g %12.6g %12.6g\n", name,
+		fprintf(stream, "%-20s %12.6g %12.6g %12.6g %12.6g %12.6g\n", name,
 			spec_detail_rmse(band, 1), spec_detail_mae(band, 1),
-			spec_detail_max(band, 1));
+			spec_detail_max(band, 1), spec_detail_relative(band, 1),
+			spec_detail_psnr(band, 1, spec_report_peak(report)));
 	}
 }
 

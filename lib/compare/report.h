@@ -43,6 +43,9 @@ enum spec_status spec_report_judge(struct spec_report *report, struct spec_error
 /* Whether the test of significance says that the images differ. */
 int spec_report_is_alarm(const struct spec_report *report);
 
+/* The peak of psnr: the report's, else the largest magnitude in the first image's bands. */
+double spec_report_peak(const struct spec_report *report);
+
 /* Write errors stay in the stream. */
 void spec_report_text(const struct spec_report *report, FILE *stream);
 void spec_report_json(const struct spec_report *report, FILE *stream);

@@ -113,6 +113,9 @@ put_bands(struct spec_json *json, const struct spec_report *report)
 		spec_json_number(json, "rmse", spec_detail_rmse(band, 1));
 		spec_json_number(json, "mae", spec_detail_mae(band, 1));
 		spec_json_number(json, "max", spec_detail_max(band, 1));
+		spec_json_number(json, "relative", spec_detail_relative(band, 1));
+		spec_json_number(
+			json, "psnr", spec_detail_psnr(band, 1, spec_report_peak(report)));
 		spec_json_close(json);
 	}
 	spec_json_close(json);

@@ -661,9 +661,31 @@ energy     0.5' ] || complain "$answer"
   spectral b.exr --size 2x1 --grid 500:600:100
   # 0.001 0.002 and 0.101 0.102
   answers 1 specdiff --metric rmse --bands a.exr b.exr
-  [ "$(tail -n 3 <<<"$answer" | tr -s ' ')" = 'band rmse mae max
-S0.500,000000nm 0.00158114 0.0015 0.002
-S0.600,000000nm 0.101501 0.1015 0.102' ] || complain "$answer"
+  [ "$(tail -n 3 <<<"$answer" | tr -s ' ')" = 'band rmse mae max relative psnr
+S0.500,000000nm 0.00158114 0.0015 0.002 inf -inf
+S0.600,000000nm 0.101501 0.1015 0.102 inf -inf' ] || complain "$answer"
+  # The other way round: all of a is the difference, and the peak 0.102 is that of both bands.
+  answers 1 specdiff --metric psnr --bands b.exr a.exr
+  [ "$(tr -s ' ' <<<"$answer")" = 'psnr 3.05182 dB
+band rmse mae max relative psnr
+S0.500,000000nm 0.00158114 0.0015 0.002 1 36.1926
+S0.600,000000nm 0.101501 0.1015 0.102 1 0.042577' ] || complain "$answer"
+  answers 1 specdiff --metric max --bands --peak 10.2 b.exr a.exr
+  grep -q ' 76\.1926$' <<<"$answer" || complain "$answer"
+  answers 1 specdiff --json --bands b.exr a.exr
+  [ "$(jq -c '[.bands[1].relative, (.bands[0].psnr * 1000 | round)]' <<<"$answer")" = '[1,36193]' ] ||
+    complain "$answer"
+}
+
+@test "--same-within: the tile that says most ends with the image, and nothing has no tile" {
+  spectral a.exr --channel S0.500nm --size 18x10
+  spectral b.exr --channel S0.500nm --size 18x10 --pattern constant:0
+  answers 1 specdiff --same-within 3 --crop 2,0,18,9 a.exr b.exr
+  # All d have one sign: z of the band is that of its only tile, which comes first.
+  grep -qF "at 2,0 to 18,9, z" <<<"$answer" || complain "$answer"
+  specconvert --scale 1e30 a.exr | specconvert --scale 1e30 -o inf.exr
+  specdiff -m max --same-within 3 --bands inf.exr inf.exr >out
+  grep -qx 'the same within.*differences' out || complain "$(cat out)"
 }
 
 @test "--json tells all of it" {
