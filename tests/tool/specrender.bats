@@ -130,6 +130,12 @@ same_channels() {
   pixel_holds a.exr a.exr 3,2 'is("S0.500,000000nm", 4 / 3); is("S0.600,000000nm", 5 / 3)'
   (cd sub && render <a.pbrt) >b.exr
   cmp a.exr b.exr
+  for suffix in spd txt csv; do
+    cp sub/a.spd sub/lamp.$suffix
+    scene sub/lamp.pbrt WorldBegin 'LightSource "infinite" "spectrum L" "lamp.'$suffix'"'
+    render sub/lamp.pbrt -o lamp.exr
+    pixel_holds lamp.exr lamp.exr 3,2 'is("S0.500,000000nm", 4 / 3)'
+  done
   fails_cleanly specrender <sub/a.pbrt -o c.exr
   [[ $stderr = 'specrender: <stdin>:5:'*"there is no file 'sky.exr'" ]] || complain "$stderr"
 }
@@ -187,6 +193,10 @@ wrong_at() {
   wrong_at 2:1 'twice as wide as high' WorldBegin 'LightSource "infinite" "string filename" "square.exr"'
   spectral wide.exr --size 4x2
   wrong_at 2:13 'a picture of surroundings cannot be stretched' WorldBegin 'Scale 1 2 1 LightSource "infinite" "string filename" "wide.exr"'
+  spectral paint.exr --size 4x2 --kind T
+  wrong_at 2:1 'surroundings need bands of light (S0)' WorldBegin 'LightSource "infinite" "string filename" "paint.exr"'
+  spectral dark.exr --size 4x2 --pattern negative
+  wrong_at 2:1 'is negative or not finite' WorldBegin 'LightSource "infinite" "string filename" "dark.exr"'
   echo 'no picture, but longer than a magic number' >text.exr
   wrong_at 2:1 text.exr WorldBegin 'LightSource "infinite" "string filename" "text.exr"'
 }
@@ -307,6 +317,12 @@ wrong_at() {
   specrender --grid 400:700:100 a.pbrt -o b.exr
   pixel_holds b.exr b.exr 3,2 '
     is("S0.400,000000nm", 0); is("S0.500,000000nm", 0.5); is("S0.600,000000nm", 0.5); is("S0.700,000000nm", 0)'
+  # A picture's bands are not bins that reach farther.
+  spectral sky.exr --size 4x2 --grid 500:600:100 --pattern constant:1
+  scene c.pbrt WorldBegin 'LightSource "infinite" "string filename" "sky.exr"'
+  specrender --grid 400:700:100 c.pbrt -o d.exr
+  pixel_holds d.exr d.exr 3,2 '
+    is("S0.400,000000nm", 0); is("S0.500,000000nm", 1); is("S0.600,000000nm", 1); is("S0.700,000000nm", 0)'
 }
 
 @test "--spp, --size and --seed are the scene's, unless they are given" {
@@ -463,6 +479,15 @@ wrong_at() {
       is("cover", 1); is("id", 9)'
   done
   pixel_holds b.exr b.exr 0,0 'for (name in to) if (name !~ /^S0/ && to[name] != 0) wrong(name)'
+}
+
+@test "a triangle without uv has (0,0), (1,0) and (1,1) at its corners, and its tangent along the first edge" {
+  scene a.pbrt WorldBegin 'Shape "trianglemesh" "point3 P" [ -2 -2 2  2 -2 2  2 2 2 ]'
+  render --spp 1 --gbuffer a.pbrt -o b.exr
+  for pixel in 3,3 5,2 4,3; do
+    pixel_holds b.exr b.exr $pixel 'is("cover", 1); is("u", (to["P.X"] + 2) / 4, 1e-5); is("v", (to["P.Y"] + 2) / 4, 1e-5)
+      is("Tan.X", 1); is("Tan.Y", 0); is("Tan.Z", 0)'
+  done
 }
 
 @test "--gbuffer at a silhouette: cover is the share of the samples, the rest their mean" {
@@ -653,7 +678,12 @@ wrong_at() {
     fails_cleanly specrender --limit $limit a.pbrt -o c.exr
     [[ $stderr = *"--limit ${limit%=*}="* ]] || complain "$limit: $stderr"
   done
-  no_leftovers . a.pbrt b.exr sky.exr
+  # Two bands of the file, but 81 of the picture: 64 x 32 x 81 x 4 bytes.
+  spectral large.exr --size 64x32 --grid 380:780:400
+  scene c.pbrt WorldBegin 'LightSource "infinite" "string filename" "large.exr"'
+  fails_cleanly specrender -j 1 --limit memory=500k c.pbrt -o c.exr
+  [[ $stderr = *'64 x 32 pixels of 81 bands take more than the limit of 512000 bytes (--limit memory='* ]] || complain "$stderr"
+  no_leftovers . a.pbrt b.exr c.pbrt large.exr sky.exr
 }
 
 @test "a picture of which one line is larger than the limit is refused before memory is taken" {
