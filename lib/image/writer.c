@@ -137,10 +137,12 @@ list_known(char text[256], int suffixes)
 {
 	size_t length = 0;
 
-	for (size_t i = 0; i < FORMATS && length < 256; i++)
+	for (size_t i = 0; i < FORMATS && length < 256; i++) {
+		const char *said = suffixes ? formats[i]->suffixes : formats[i]->name;
+
 		length += (size_t)snprintf(text + length, 256 - length, "%s%s",
-			i > 0 ? " " : "",
-			suffixes ? formats[i]->suffixes : formats[i]->name);
+			length > 0 && *said ? " " : "", said);
+	}
 }
 
 static enum spec_status

@@ -857,6 +857,7 @@ specconvert --crop 0,0,1,1 b.exr -o c.exr  # spectools $version
   spectral a.exr
   fails_cleanly specconvert --format png a.exr -o b.exr
   fails_cleanly specconvert a.exr -o b.png
+  [[ $stderr = *"no image format for '.png' (.exr .hdr .img .bsq .bil .bip .hsr .tif .tiff)" ]] || complain "$stderr"
   no_leftovers . a.exr
 }
 
