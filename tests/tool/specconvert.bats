@@ -861,6 +861,23 @@ specconvert --crop 0,0,1,1 b.exr -o c.exr  # spectools $version
   no_leftovers . a.exr
 }
 
+@test "--progress shows lines on standard error, whatever is made, and -q none" {
+  spectral a.exr
+  spectral rgb.exr --channel R --channel G --channel B --pattern constant:0.5
+  for made in 'a.exr --scale 2' 'a.exr --to fourier:3' 'a.exr --projection octahedral' 'rgb.exr --from-rgb basis' \
+    'rgb.exr --vectors N' 'D65 --patches 2x1' 'D65 --atlas -g 400:700:5'; do
+    # shellcheck disable=SC2086 # words
+    specconvert --progress $made -o b.exr 2>said
+    grep -q '100% .* lines/s' said || complain "$made: $(cat said)"
+    # shellcheck disable=SC2086 # words
+    specconvert -q --progress $made -o b.exr 2>said
+    [ ! -s said ] || complain "$made: $(cat said)"
+    # shellcheck disable=SC2086 # words
+    specconvert $made -o b.exr 2>said
+    [ ! -s said ] || complain "$made: $(cat said)"
+  done
+}
+
 @test "each limit is refused by name" {
   spectral a.exr
   for limit in pixels=127 channels=15 header=500 memory=1k; do
