@@ -26,6 +26,9 @@ static const struct cli_option options[] = {
 	{0, "same-within", "Nsigma",
 		"test whether two renders differ by more than their noise; "
 		"a false alarm is as rare as N sigma of a normal noise"},
+	{0, "noise", "variance|differences",
+		"what that takes for noise (default: the files' variances, if both have "
+		"them, else the differences)"},
 	{0, "bands", NULL, "print rmse, mae, max, relative and psnr of each band"},
 	{0, "json", NULL, "print JSON"},
 	{0, "resample", NULL, "compare different grids over their overlap"},
@@ -167,6 +170,19 @@ take_sigma(struct job *job, const char *text, struct spec_error *error)
 	return status;
 }
 
+static enum spec_status
+take_noise(struct job *job, const char *text, struct spec_error *error)
+{
+	if (strcmp(text, "variance") == 0)
+		job->setup.noise = SPEC_IMAGES_NOISE_VARIANCE;
+	else if (strcmp(text, "differences") == 0)
+		job->setup.noise = SPEC_IMAGES_NOISE_DIFFERENCES;
+	else
+		return spec_error_set(error, SPEC_EUSAGE,
+			"'%s' is neither variance nor differences", text);
+	return SPEC_OK;
+}
+
 /* Options without a value. */
 static int
 take_flag(struct job *job, const char *name)
@@ -227,6 +243,8 @@ take(void *state, const char *name, const char *value, struct spec_error *error)
 			value, 1e-300, 1e300, "the peak", &job->report.peak, error);
 	if (strcmp(name, "same-within") == 0)
 		return take_sigma(job, value, error);
+	if (strcmp(name, "noise") == 0)
+		return take_noise(job, value, error);
 	if (strcmp(name, "crop") == 0) {
 		job->setup.crop = &job->crop;
 		return spec_settings_crop(value, &job->crop, error);
@@ -279,6 +297,8 @@ parse(struct cli *cli, struct job *job)
 		!job->side_path)
 		cli_usage(cli, "%s is for --heatmap and --side-by-side",
 			job->has_map ? "--heatmap-metric" : "--heatmap-max");
+	if (job->setup.noise != SPEC_IMAGES_NOISE_KNOWN && !(job->setup.sigma > 0))
+		cli_usage(cli, "--noise is for --same-within");
 	check_outputs(cli, job);
 	for (size_t i = 0; i < SPEC_METRICS_USUAL && !job->any_chosen; i++)
 		report->metric[i].shown = 1;

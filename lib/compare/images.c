@@ -613,6 +613,22 @@ measure(struct run *run, struct spec_reader *a, struct spec_reader *b,
 }
 
 static enum spec_status
+plan_noise(struct spec_comparing *comparing, struct spec_error *error)
+{
+	enum spec_images_noise noise = comparing->setup->noise;
+	enum spec_status status;
+
+	if (noise == SPEC_IMAGES_NOISE_DIFFERENCES)
+		return SPEC_OK;
+	status = spec_comparing_variances(comparing, error);
+	if (status == SPEC_OK && noise == SPEC_IMAGES_NOISE_VARIANCE &&
+		comparing->variances.count == 0)
+		status = spec_error_set(
+			error, SPEC_ERANGE, "not both images have variances of all bands");
+	return status;
+}
+
+static enum spec_status
 plan(struct run *run, const struct spec_settings *settings, const char *name,
 	struct spec_error *error)
 {
@@ -637,7 +653,7 @@ plan(struct run *run, const struct spec_settings *settings, const char *name,
 	if (status == SPEC_OK && setup->want_bands)
 		status = spec_comparing_widths(comparing, error);
 	if (status == SPEC_OK && setup->sigma > 0)
-		status = spec_comparing_variances(comparing, error);
+		status = plan_noise(comparing, error);
 	if (status == SPEC_OK && setup->sigma > 0)
 		status = spec_significance_open(&comparing->result->test,
 			comparing->bands.count, run->width, error);

@@ -11,6 +11,13 @@
 #include "image/settings.h"
 #include "spectrum/curve.h"
 
+/* From what a test of significance takes the noise. */
+enum spec_images_noise {
+	SPEC_IMAGES_NOISE_KNOWN,      /* the variances in the files, else the differences */
+	SPEC_IMAGES_NOISE_VARIANCE,   /* the variances, which must be there */
+	SPEC_IMAGES_NOISE_DIFFERENCES /* the differences in any case */
+};
+
 struct spec_images_setup {
 	const struct spec_curve *observer; /* for colour differences; null: not wanted */
 	/* On reflective images; its white is that of both. */
@@ -25,6 +32,7 @@ struct spec_images_setup {
 	int resample;            /* other bands are no difference: the overlap counts */
 	int exact;               /* whether all bits are the same */
 	double sigma;            /* of a test of significance; 0: none */
+	enum spec_images_noise noise; /* of that test */
 	/* What counts, 0,0 is the data window's corner; or null. */
 	const struct spec_window *crop;
 	const struct spec_matte *mask;   /* settled; or null */

@@ -949,6 +949,20 @@ END
   answers 1 specdiff --same-within 3sigma 1.exr 2.exr
 }
 
+@test "--noise: from the differences though there are variances, or from these alone" {
+  for value in 1 1.5; do
+    spectral plain$value.exr --channel S0.500nm --pattern constant:$value
+    spectral $value.exr --channel S0.500nm --extra variance.S0.500nm --pattern constant:$value
+  done
+  answers 0 specdiff --same-within 3 --noise variance 1.exr 1.5.exr
+  answers 1 specdiff --same-within 3 --noise differences 1.exr 1.5.exr
+  grep -q 'noise from the differences; .*, z -11.3, mean' <<<"$answer" || complain "$answer"
+  fails_cleanly specdiff --same-within 3 --noise variance plain1.exr plain1.5.exr
+  [[ $stderr = *'not both images have variances of all bands'* ]] || complain "$stderr"
+  fails_cleanly specdiff --noise variance 1.exr 1.5.exr
+  fails_cleanly specdiff --same-within 3 --noise white 1.exr 1.5.exr
+}
+
 # Before they were left out, all of them, and what was left was the same.
 @test "--same-within: variances below 0, and such that are not finite, are refused" {
   band='--channel S0.500nm --extra variance.S0.500nm'
