@@ -377,6 +377,14 @@ open_mask(struct job *job, const struct spec_reader *first, struct spec_error *e
 		spec_reader_name(job->mask_reader), error);
 }
 
+/* Whether a picture is compared with what another image shows. */
+static int
+shows(struct spec_reader *const *reader)
+{
+	return (spec_reader_image(reader[0])->bands > 0) !=
+	       (spec_reader_image(reader[1])->bands > 0);
+}
+
 static enum spec_status
 compare(struct job *job, struct spec_reader *reader[2], struct spec_images *result,
 	struct spec_error *error)
@@ -388,7 +396,8 @@ compare(struct job *job, struct spec_reader *reader[2], struct spec_images *resu
 	job->setup.colour_optional = !named;
 	if (job->mask_text)
 		status = open_mask(job, reader[0], error);
-	if (status == SPEC_OK && (named || !job->any_chosen || job->heatmap_path)) {
+	if (status == SPEC_OK &&
+		(named || !job->any_chosen || job->heatmap_path || shows(reader))) {
 		status = spec_observer_load(job->observer, &observer, error);
 		if (status == SPEC_OK && !spec_observer_is_xyz(&observer))
 			status = spec_error_set(error, SPEC_EUSAGE,

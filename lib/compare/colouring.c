@@ -40,20 +40,26 @@ colour_bands(struct spec_comparing *comparison, struct spec_error *error)
 		comparison->spectral_setup.white_xyz, error);
 }
 
+/* The image whose channels the pairs name. */
+static const struct spec_image *
+picture_of(const struct spec_comparing *comparison)
+{
+	return comparison->picture ? comparison->picture : comparison->a;
+}
+
 /* Where among the pairs the channel of that name is, or their count. */
 static size_t
 find_pair(const struct spec_comparing *comparison, const char *name)
 {
-	size_t channel = spec_image_find_channel(comparison->a, name), i = 0;
+	size_t channel = spec_image_find_channel(picture_of(comparison), name), i = 0;
 
 	while (i < comparison->bands.count && comparison->bands.a[i] != channel)
 		i++;
 	return i;
 }
 
-/* The primaries that the file names, or those of Rec. 709, which are sRGB's. */
-static enum spec_status
-find_space(
+enum spec_status
+spec_comparing_space(
 	const struct spec_image *image, struct spec_space *space, struct spec_error *error)
 {
 	const struct spec_attribute *it = spec_image_attribute(image, "chromaticities");
@@ -80,6 +86,8 @@ colour_pictures(struct spec_comparing *comparison, struct spec_error *error)
 {
 	static const char *const name[] = {"R", "G", "B"};
 	size_t count = comparison->bands.count;
+	/* The exposure of what is shown is in its sums. */
+	double gain = comparison->picture ? 1 : exp2(comparison->setup->exposure);
 	struct spec_space space;
 	double matrix[9];
 	enum spec_status status;
@@ -89,13 +97,13 @@ colour_pictures(struct spec_comparing *comparison, struct spec_error *error)
 			return spec_error_set(error, SPEC_ERANGE,
 				"no colours: neither bands nor channels R, G and B");
 	}
-	status = find_space(comparison->a, &space, error);
+	status = spec_comparing_space(picture_of(comparison), &space, error);
 	if (status == SPEC_OK)
 		status = spec_space_to_xyz(&space, matrix, error);
 	for (int i = 0; i < 9 && status == SPEC_OK; i++)
 		comparison->weight_xyz[(size_t)(i / 3) * count +
 				       find_pair(comparison, name[i % 3])] =
-			matrix[i] * exp2(comparison->setup->exposure);
+			matrix[i] * gain;
 	if (status == SPEC_OK)
 		spec_white_xyz(space.white_xy, comparison->spectral_setup.white_xyz);
 	return status;
@@ -110,8 +118,8 @@ spec_comparing_colour(struct spec_comparing *comparison, struct spec_error *erro
 		3 * comparison->bands.count, sizeof(double), "bands", error);
 	if (!comparison->weight_xyz)
 		return SPEC_ENOMEM;
-	status = comparison->a->bands > 0 ? colour_bands(comparison, error)
-					  : colour_pictures(comparison, error);
+	status = comparison->grid_bands > 0 ? colour_bands(comparison, error)
+					    : colour_pictures(comparison, error);
 	if (status != SPEC_OK)
 		return status;
 	comparison->spectral_setup.weight_xyz = comparison->weight_xyz;
@@ -130,7 +138,7 @@ spec_comparing_widths(struct spec_comparing *comparison, struct spec_error *erro
 	double *edges_nm = spec_memory_new(bands + 1, sizeof *edges_nm, "bands", error);
 	char *quantity = spec_image_quantity(a, error);
 	enum spec_status status = width && edges_nm && quantity ? SPEC_OK : SPEC_ENOMEM;
-	int plain = status == SPEC_OK && (a->bands == 0 || strstr(quantity, "per band"));
+	int plain = status == SPEC_OK && (bands == 0 || strstr(quantity, "per band"));
 
 	if (status == SPEC_OK && bands > 0 && comparison->grid_edges_nm)
 		memcpy(edges_nm, comparison->grid_edges_nm, (bands + 1) * sizeof *edges_nm);
@@ -138,7 +146,7 @@ spec_comparing_widths(struct spec_comparing *comparison, struct spec_error *erro
 		spec_bins_halfway(comparison->grid_nm, bands, edges_nm);
 	for (size_t i = 0; i < count && status == SPEC_OK; i++) {
 		if (plain)
-			width[i] = a->bands == 0 || i < bands;
+			width[i] = bands == 0 || i < bands;
 		else if (i < bands)
 			width[i] = edges_nm[i + 1] - edges_nm[i];
 	}

@@ -5,6 +5,7 @@
 #include <stddef.h>
 
 #include "base/error.h"
+#include "colour/space.h"
 #include "compare/images.h"
 #include "image/image.h"
 
@@ -28,6 +29,8 @@ struct spec_comparing {
 	struct spec_comparing_pairs bands, others;
 	struct spec_comparing_pairs variances; /* of all bands, or none */
 	struct spec_comparing_sums sums[2];    /* of A and of B */
+	/* The one of both that is a picture, where the other has bands; else null. */
+	const struct spec_image *picture;
 	/* The wavelengths of the bands that are measured, and the edges, or null. */
 	size_t grid_bands;
 	const double *grid_nm, *grid_edges_nm;
@@ -40,7 +43,11 @@ struct spec_comparing {
 void spec_comparing_say(struct spec_images *result, const char *format, ...)
 	__attribute__((format(printf, 2, 3)));
 
-/* Compares the images as such and pairs their channels. Error: SPEC_ENOMEM. */
+/* Room for sums of so many bands and terms in all, those of a band from 0 on. */
+enum spec_status spec_comparing_new_sums(struct spec_comparing_sums *sums, size_t bands,
+	size_t terms, struct spec_error *error);
+
+/* Compares the images as such and pairs their channels. Errors: as spec_comparing_shown. */
 enum spec_status spec_comparing_structure(
 	struct spec_comparing *comparison, struct spec_error *error);
 
@@ -53,11 +60,24 @@ enum spec_status spec_comparing_resample(
 	struct spec_comparing *comparison, int *done, struct spec_error *error);
 
 /*
+ * Where one image has bands and the other channels R, G and B in place of them: plans three
+ * sums that are red, green and blue of the one, in the primaries of the other, as spec2rgb has
+ * them with the setup's observer, illuminant and exposure, and adapts nothing. Else, without an
+ * observer or bit for bit, does nothing, and picture stays null. Errors: those of spec_rgb_plan.
+ */
+enum spec_status spec_comparing_shown(
+	struct spec_comparing *comparison, struct spec_error *error);
+
+/*
  * Finds the channels with the variances of the means that the bands are: "variance." and the
  * band's name, of every band on both sides; else there are none. Error: SPEC_ENOMEM.
  */
 enum spec_status spec_comparing_variances(
 	struct spec_comparing *comparison, struct spec_error *error);
+
+/* The primaries that a picture names, or those of Rec. 709, which are sRGB's. */
+enum spec_status spec_comparing_space(
+	const struct spec_image *image, struct spec_space *space, struct spec_error *error);
 
 /* Plans the colours of the bands, or of the channels R, G and B. Errors: those of observers. */
 enum spec_status spec_comparing_colour(

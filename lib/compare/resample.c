@@ -52,11 +52,11 @@ bin_shares(const struct spec_image *image, double low_nm, double high_nm, double
 	return overlap;
 }
 
-static enum spec_status
-new_sums(struct spec_comparing_sums *sums, size_t pairs, size_t terms,
+enum spec_status
+spec_comparing_new_sums(struct spec_comparing_sums *sums, size_t bands, size_t terms,
 	struct spec_error *error)
 {
-	sums->first = spec_memory_new(pairs + 1, sizeof *sums->first, "bands", error);
+	sums->first = spec_memory_new(bands + 1, sizeof *sums->first, "bands", error);
 	sums->channel = spec_memory_new(terms, sizeof *sums->channel, "bands", error);
 	sums->weight = spec_memory_new(terms, sizeof *sums->weight, "bands", error);
 	return sums->first && sums->channel && sums->weight ? SPEC_OK : SPEC_ENOMEM;
@@ -71,7 +71,8 @@ plan_sums(struct spec_comparing_sums *sums, const struct spec_image *image,
 	size_t most = grid->edges_nm ? image->bands + 2 * count : SPEC_WEIGHTS_MOST * count;
 	double *weight = spec_memory_new(image->bands, sizeof *weight, "bands", error);
 	enum spec_status status =
-		weight ? new_sums(sums, stokes * count, stokes * most, error) : SPEC_ENOMEM;
+		weight ? spec_comparing_new_sums(sums, stokes * count, stokes * most, error)
+		       : SPEC_ENOMEM;
 
 	for (size_t i = 0; i < stokes * count && status == SPEC_OK; i++) {
 		size_t band = first + i % count, from = 0, used = 0;

@@ -259,6 +259,11 @@ spec_comparing_structure(struct spec_comparing *comparison, struct spec_error *e
 
 	compare_windows(result, "data", &a->data, &b->data);
 	compare_windows(result, "display", &a->display, &b->display);
+	status = spec_comparing_shown(comparison, error);
+	if (status != SPEC_OK || comparison->picture) {
+		result->comparable = same_window;
+		return status;
+	}
 	status = compare_grids(comparison, &paired, error);
 	if (status == SPEC_OK)
 		status = compare_quantities(result, a, b, &same_scale, error);

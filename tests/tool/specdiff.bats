@@ -816,6 +816,44 @@ S0.600,000000nm 0.101501 0.1015 0.102 1 0.042577' ] || complain "$answer"
   done
 }
 
+@test "a picture is compared with what an image shows" {
+  for kind in T S0; do
+    spectral a.exr --kind $kind --pattern constant:0.4
+    spec2rgb a.exr --observer 1964 --illuminant A -e -1 --space p3 -o b.exr
+    options=(--observer 1964 --illuminant A -e -1 -t de2000-max=1e-4 -t max=1e-6)
+    answers 0 specdiff "${options[@]}" a.exr b.exr
+    [[ $answer == "the first as spec2rgb shows it, in the primaries of the second; "* ]] || complain "$answer"
+    answers 0 specdiff "${options[@]}" b.exr a.exr
+    [[ $answer == "the second as spec2rgb shows it, in the primaries of the first; "* ]] || complain "$answer"
+    answers 0 specdiff -m rmse -t max=1e-6 "${options[@]:0:6}" a.exr b.exr
+    answers 1 specdiff -t de2000-max=1 "${options[@]:0:4}" -e 0 a.exr b.exr
+    answers 1 specdiff -t de2000-max=0.05 --illuminant A -e -1 a.exr b.exr
+  done
+}
+
+@test "a picture of 8 bits is as near to its image as codes are; its primaries count" {
+  spectral a.exr --kind T --pattern constant:0.4
+  spec2rgb a.exr -o a.png
+  answers 0 specdiff -t max=0.0032 -t de2000-max=1 a.exr a.png
+  spec2rgb a.exr --space rec2020 --bits 16 -o b.png
+  answers 0 specdiff -t max=2e-5 -t de2000-max=0.01 a.exr b.png
+  specdiff --bands --json a.exr b.png >said || true
+  [ "$(jq -r '[.bands[].channel] | join(" ")' said)" = 'R G B' ] || complain "$(<said)"
+}
+
+@test "a picture bit for bit, of another size, or without colours is no picture of the image" {
+  spectral a.exr --kind T
+  spec2rgb a.exr -o a.png
+  answers 1 specdiff --exact a.exr a.png
+  [[ $answer == 'bands differ: '*', of different kinds'* ]] || complain "$answer"
+  specconvert --crop 0,0,8,8 a.exr -o b.exr
+  answers 1 specdiff b.exr a.png
+  [[ $answer == 'data windows differ: '* && $answer != *rmse* ]] || complain "$answer"
+  spectral b.exr --channel Y
+  answers 1 specdiff a.exr b.exr
+  [[ $answer == 'bands differ: '* ]] || complain "$answer"
+}
+
 # Regions
 
 @test "--crop: what lies outside does not count" {
@@ -1237,7 +1275,7 @@ ppm_height() {
 
 @test "images of different kinds: kind, bands and channels are told" {
   spectral a.exr --kind T --grid 400:500:50
-  spectral b.exr --channel R --channel G --channel B
+  spectral b.exr --channel R --channel G --channel Z
   run --separate-stderr specdiff a.exr b.exr
   [ "$status" -eq 1 ]
   [[ $output = *'bands differ: 3 and 0'*"'reflectance' and 'no bands'"*"channel 'R' is only in the second"* ]] ||
