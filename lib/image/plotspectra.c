@@ -139,9 +139,9 @@ draw_names(cairo_t *cairo, const struct spec_plotting_request *request,
 	char fitting[MOST_BYTES + 4];
 
 	for (size_t i = 0; i < names; i++) {
+		size_t line = i / columns;
 		double x = panel->left + width * (double)(i % columns);
-		double y =
-			panel->top + panel->height + 50 + NAME_LINE * (double)(i / columns);
+		double y = panel->top + panel->height + 50 + NAME_LINE * (double)line;
 		int last = i + 1 == names && names < request->count;
 
 		spec_plot_colour(cairo, i);
