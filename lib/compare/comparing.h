@@ -87,6 +87,17 @@ enum spec_status spec_comparing_colour(
 enum spec_status spec_comparing_widths(
 	struct spec_comparing *comparison, struct spec_error *error);
 
+/* Adds the whole numbers, count of each side as bits of floats, of line y of A's channel. */
+void spec_comparing_whole_row(const float *a, const float *b, size_t count, size_t channel,
+	int y, struct spec_whole *whole);
+/* Adds those of a line that comes after all that total has. */
+void spec_comparing_whole_add(struct spec_whole *total, const struct spec_whole *row);
+
+/* Adds line y bit for bit; plane: A's count samples of all pairs, then B's. */
+void spec_comparing_exact_row(const struct spec_comparing_pairs *pairs,
+	const float *const *plane, size_t count, int y, struct spec_exact *exact);
+void spec_comparing_exact_add(struct spec_exact *total, const struct spec_exact *row);
+
 void spec_comparing_free(struct spec_comparing *comparison);
 
 /* A band's whole numbers come out of the decoder as floats, others as they are. */

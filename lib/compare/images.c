@@ -170,82 +170,6 @@ gather(const struct run *run, const struct spec_stream_worker *worker,
 	}
 }
 
-static uint32_t
-distance(uint32_t a, uint32_t b)
-{
-	return a > b ? a - b : b - a;
-}
-
-static void
-compare_whole(const float *a, const float *b, size_t width, size_t channel, int y,
-	struct spec_whole *whole)
-{
-	for (size_t x = 0; x < width; x++) {
-		uint32_t one, two;
-
-		memcpy(&one, a + x, sizeof one);
-		memcpy(&two, b + x, sizeof two);
-		if (one == two)
-			continue;
-		if (whole->differing++ == 0 ||
-			distance(one, two) > distance(whole->a, whole->b)) {
-			whole->a = one;
-			whole->b = two;
-			whole->x = x;
-			whole->y = y;
-			whole->channel = channel;
-		}
-	}
-}
-
-static void
-add_whole(struct spec_whole *total, const struct spec_whole *row)
-{
-	unsigned long long before = total->differing;
-
-	if (row->differing == 0)
-		return;
-	if (before == 0 || distance(row->a, row->b) > distance(total->a, total->b))
-		*total = *row;
-	total->differing = before + row->differing;
-}
-
-/* Bit for bit: the pairs' planes are in room. */
-static void
-compare_bits(const struct spec_comparing_pairs *pairs, const struct room *room,
-	size_t width, int y, struct spec_exact *exact)
-{
-	for (size_t i = 0; i < pairs->count; i++) {
-		const float *a = room->plane[i], *b = room->plane[pairs->count + i];
-
-		if (memcmp(a, b, width * sizeof *a) == 0)
-			continue;
-		for (size_t x = 0; x < width; x++) {
-			struct spec_exact here = {
-				exact->differing, 0, 0, x, pairs->a[i], y};
-
-			memcpy(&here.a, a + x, sizeof here.a);
-			memcpy(&here.b, b + x, sizeof here.b);
-			if (here.a == here.b)
-				continue;
-			if (exact->differing == 0)
-				*exact = here;
-			exact->differing++;
-		}
-	}
-}
-
-static void
-add_exact(struct spec_exact *total, const struct spec_exact *row)
-{
-	unsigned long long before = total->differing;
-
-	if (before == 0)
-		*total = *row;
-	else
-		total->differing = before + row->differing;
-}
-
 static void
 measure_others(const struct run *run, const struct spec_stream_worker *worker, int line,
 	int y, size_t count, const struct room *room, struct row *row)
@@ -261,7 +185,8 @@ measure_others(const struct run *run, const struct spec_stream_worker *worker, i
 		struct spec_measure one;
 
 		if (spec_comparing_is_whole(&comparing->a->channel[pairs->a[i]])) {
-			compare_whole(*a, *b, count, pairs->a[i], y, &row->whole);
+			spec_comparing_whole_row(
+				*a, *b, count, pairs->a[i], y, &row->whole);
 			continue;
 		}
 		spec_measure_row(&comparing->others_setup, a, b, count, y, &one);
@@ -269,7 +194,7 @@ measure_others(const struct run *run, const struct spec_stream_worker *worker, i
 		spec_measure_add(&row->others, &one);
 	}
 	if (comparing->setup->exact)
-		compare_bits(pairs, room, count, y, &row->exact);
+		spec_comparing_exact_row(pairs, room->plane, count, y, &row->exact);
 }
 
 static void
@@ -393,7 +318,8 @@ kernel(void *state, struct spec_stream_worker *worker, int line, struct spec_err
 		spec_measure_row(&comparing->spectral_setup, room.plane, room.plane + bands,
 			count, y, &row->spectral);
 		if (setup->exact)
-			compare_bits(&comparing->bands, &room, count, y, &row->exact);
+			spec_comparing_exact_row(
+				&comparing->bands, room.plane, count, y, &row->exact);
 		if (setup->maps || setup->want_bands)
 			fill_maps(run, &room, line, count, setup->want_bands ? band : NULL);
 	}
@@ -439,8 +365,8 @@ deliver(void *state, const unsigned char *payload, int line, int count,
 
 		spec_measure_add(&result->spectral, &row->spectral);
 		spec_measure_add(&result->others, &row->others);
-		add_whole(&result->whole, &row->whole);
-		add_exact(&result->exact, &row->exact);
+		spec_comparing_whole_add(&result->whole, &row->whole);
+		spec_comparing_exact_add(&result->exact, &row->exact);
 		for (size_t k = 0; result->band && k < run->comparing.bands.count; k++)
 			spec_detail_band_add(&result->band[k], &band[k]);
 		if (run->comparing.setup->sigma > 0)
