@@ -831,6 +831,17 @@ S0.600,000000nm 0.101501 0.1015 0.102 1 0.042577' ] || complain "$answer"
   done
 }
 
+@test "what an image shows is as far from a picture as its own picture is" {
+  spectral a.exr --kind T
+  spectral b.exr --kind T --pattern constant:0.4
+  spec2rgb -e 2 a.exr -o a.shown.exr
+  spec2rgb b.exr -o b.shown.exr
+  answers 1 specdiff -m de2000,max-p50,rmse a.shown.exr b.shown.exr
+  wanted=$answer
+  answers 1 specdiff -e 2 -m de2000,max-p50,rmse a.exr b.shown.exr
+  [ "${answer#*$'\n'}" = "$wanted" ] || complain "$answer instead of $wanted"
+}
+
 @test "a picture of 8 bits is as near to its image as codes are; its primaries count" {
   spectral a.exr --kind T --pattern constant:0.4
   spec2rgb a.exr -o a.png
@@ -849,9 +860,12 @@ S0.600,000000nm 0.101501 0.1015 0.102 1 0.042577' ] || complain "$answer"
   specconvert --crop 0,0,8,8 a.exr -o b.exr
   answers 1 specdiff b.exr a.png
   [[ $answer == 'data windows differ: '* && $answer != *rmse* ]] || complain "$answer"
-  spectral b.exr --channel Y
-  answers 1 specdiff a.exr b.exr
-  [[ $answer == 'bands differ: '* ]] || complain "$answer"
+  for channels in '--channel Y' '--channel G --channel B --uint R'; do
+    # shellcheck disable=SC2086 # several words
+    spectral b.exr $channels
+    answers 1 specdiff a.exr b.exr
+    [[ $answer == 'bands differ: '* ]] || complain "$channels: $answer"
+  done
 }
 
 # Regions
