@@ -18,9 +18,8 @@ struct run {
 	int threads;
 	int block_lines; /* of the output */
 	int blocks;
-	pthread_mutex_t
-		take;   /* held while a block is taken from readers that do not share */
-	int next_block; /* guarded by take */
+	pthread_mutex_t take; /* held while readers that do not share are read */
+	int next_block;       /* guarded by take */
 	struct spec_turnstile turnstile;
 };
 
